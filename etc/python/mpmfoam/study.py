@@ -1,0 +1,248 @@
+"""Runs many cases made from templates, one after the other, resumably.
+
+A study lists its runs and evaluates those that are finished:
+
+    runs = [Run("mpmFoam_h0.01", [template], MPMFOAM,
+                {"system/blockMeshDict": {"h": 0.01, "nx": 40, "ny": 30}})]
+    main(here, runs, evaluate)
+
+Each run lives in runs/<name> beside the study. A run that is finished is
+skipped on the next call as long as its template and its settings are the
+same; one that was interrupted or has failed is run again from its start.
+"""
+
+import argparse
+import fnmatch
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from . import foamFile, runLog
+from .case import Case
+
+MPMFOAM = ["blockMesh", "setMaterialPoints", "mpmFoam"]
+INTERFOAM = ["blockMesh", "setFields", "interFoam"]
+
+_STAMP = "study.json"
+
+
+class RunError(Exception):
+    """A run that could not be made or did not finish"""
+
+
+@dataclass
+class Run:
+    """name       directory below runs/
+    templates  case directories, or files as (file, place in the case); later
+               ones lie over earlier ones
+    commands   applications in order, the solver last
+    settings   file -> entry -> value, set by foamDictionary; an entry of a
+               sub-dictionary is written sub/entry
+    files      file -> text, written as it is
+    about      what the evaluation wants to know of the run"""
+    name: str
+    templates: list
+    commands: list
+    settings: dict = field(default_factory=dict)
+    files: dict = field(default_factory=dict)
+    about: dict = field(default_factory=dict)
+    path: Path = None
+
+    @property
+    def case(self):
+        return Case(self.path)
+
+    @property
+    def log(self):
+        return runLog.readLog(self.path/f"log.{self.commands[-1]}")
+
+    def digest(self):
+        """Changes with anything that goes into the case"""
+        parts = [json.dumps([self.commands, self.settings, self.files],
+                            default=str, sort_keys=True).encode()]
+        for source, place in self._sources():
+            parts += [str(place).encode(), source.read_bytes()]
+        return hashlib.sha256(b"\0".join(parts)).hexdigest()
+
+    def finished(self):
+        try:
+            stamp = json.loads((self.path/_STAMP).read_text())
+        except (OSError, ValueError):
+            return False
+        return stamp["digest"] == self.digest()
+
+    def make(self):
+        """A fresh case directory"""
+        shutil.rmtree(self.path, ignore_errors=True)
+        self.path.mkdir(parents=True)
+        for source, place in self._sources():
+            target = self.path/place
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+        for name, text in self.files.items():
+            (self.path/name).write_text(text)
+        for name, entries in self.settings.items():
+            for entry, value in entries.items():
+                setEntry(self.path/name, entry, value)
+        shutil.copytree(self.path/"0.orig", self.path/"0")
+
+    def run(self):
+        """All commands, each into log.<command>, with progress"""
+        start = time.time()
+        endTime = float(entry(self.path/"system"/"controlDict", "endTime"))
+        for command in self.commands:
+            logFile = self.path/f"log.{command}"
+            with open(logFile, "w") as out:
+                process = subprocess.Popen(
+                    [command], cwd=self.path, stdout=out,
+                    stderr=subprocess.STDOUT)
+                try:
+                    while process.poll() is None:
+                        time.sleep(0.2)
+                        if command == self.commands[-1]:
+                            _progress(self.name, logFile, endTime, start)
+                except BaseException:
+                    process.terminate()
+                    process.wait()
+                    raise
+            if process.returncode != 0:
+                tail = logFile.read_text(errors="replace").splitlines()[-15:]
+                _progress(self.name, None, endTime, start)
+                raise RunError(
+                    f"{self.name}: {command} failed "
+                    f"({process.returncode}); end of {logFile}:\n    "
+                    + "\n    ".join(tail))
+        _progress(self.name, None, endTime, start)
+        if not self.log.finished:
+            raise RunError(f"{self.name}: the log has no End")
+        (self.path/_STAMP).write_text(json.dumps({
+            "digest": self.digest(), "commit": commit(),
+            "date": time.strftime("%Y-%m-%d")}) + "\n")
+
+    def _sources(self):
+        for template in self.templates:
+            if isinstance(template, tuple):
+                yield Path(template[0]), Path(template[1])
+                continue
+            for part in ["0.orig", "constant", "system"]:
+                for source in sorted((Path(template)/part).rglob("*")):
+                    place = source.relative_to(template)
+                    if source.is_file() and "polyMesh" not in place.parts:
+                        yield source, place
+
+
+def setEntry(path, name, value):
+    """One entry of a dictionary, which keeps its macros"""
+    if isinstance(value, (list, tuple)):
+        value = "(" + " ".join(map(str, value)) + ")"
+    _foamDictionary(path, "-disableFunctionEntries",
+                    "-entry", name, "-set", str(value))
+
+
+def entry(path, name):
+    return _foamDictionary(path, "-entry", name, "-value").strip()
+
+
+def _foamDictionary(path, *arguments):
+    result = subprocess.run(["foamDictionary", str(path), *arguments],
+                            capture_output=True, text=True)
+    if result.returncode != 0:
+        raise RunError(f"foamDictionary {path} {' '.join(arguments)}:\n"
+                       + result.stdout + result.stderr)
+    return result.stdout
+
+
+def commit():
+    """The commit that is checked out, with + where the tree differs"""
+    here = Path(__file__).parent
+    try:
+        return subprocess.run(
+            ["git", "describe", "--always", "--dirty=+", "--abbrev=10"],
+            cwd=here, capture_output=True, text=True, check=True
+        ).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def main(here, runs, evaluate, description=None):
+    """Command line of a study. evaluate(done, results): done maps the names
+    of the finished runs to their Run, results is the directory for CSV,
+    metrics.json and figures."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("names", nargs="*", metavar="run",
+                        help="runs to do, wildcards allowed (default: all)")
+    parser.add_argument("--list", action="store_true",
+                        help="list the runs and their state")
+    parser.add_argument("--evaluate", action="store_true",
+                        help="evaluate what is finished, run nothing")
+    arguments = parser.parse_args()
+
+    here = Path(here)
+    for run in runs:
+        run.path = here/"runs"/run.name
+    chosen = [run for run in runs if not arguments.names or any(
+        fnmatch.fnmatch(run.name, name) for name in arguments.names)]
+
+    if arguments.list:
+        for run in chosen:
+            print(f"{'finished' if run.finished() else 'to do':<10}{run.name}")
+        return
+
+    failed = []
+    if not arguments.evaluate:
+        for run in chosen:
+            if run.finished():
+                continue
+            if not shutil.which(run.commands[-1]):
+                failed.append(f"{run.name}: no {run.commands[-1]} in PATH")
+                continue
+            try:
+                run.make()
+                run.run()
+            except (RunError, foamFile.FoamFileError) as error:
+                failed.append(str(error))
+                print(error, file=sys.stderr)
+
+    done = {run.name: run for run in runs if run.finished()}
+    if done:
+        results = here/"results"
+        results.mkdir(exist_ok=True)
+        evaluate(done, results)
+    if failed:
+        sys.exit("Not finished:\n" + "\n".join(
+            f"    {line.splitlines()[0]}" for line in failed))
+
+
+_shown = {}
+
+
+def _progress(name, logFile, endTime, start):
+    """A line with the fraction done; on a terminal it is rewritten in place,
+    else one line per tenth. No logFile: the run is over."""
+    if logFile is None:
+        if sys.stdout.isatty():
+            print()
+        _shown.pop(name, None)
+        return
+    with open(logFile, "rb") as file:
+        file.seek(0, os.SEEK_END)
+        file.seek(max(0, file.tell() - 4096))
+        tail = file.read().decode(errors="replace").splitlines()
+    times = [line.split("=")[1].split()[0] for line in tail
+             if line.strip().startswith("Time = ")]
+    if not times:
+        return
+    fraction = float(times[-1])/endTime
+    elapsed = time.time() - start
+    text = f"{name}: {100*fraction:3.0f} %, {elapsed:.0f} s"
+    if sys.stdout.isatty():
+        print("\r" + text, end="", flush=True)
+    elif int(10*fraction) > _shown.get(name, -1):
+        _shown[name] = int(10*fraction)
+        print(text, flush=True)

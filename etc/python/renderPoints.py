@@ -1,0 +1,246 @@
+#!/usr/bin/env pvpython
+"""Pictures of the points of a cloud, as ParaView reads them from the case.
+
+    xvfb-run -a pvpython $MPMFOAM_DIR/etc/python/renderPoints.py \\
+        [--case <dir>] [--cloud water] [--output <dir>] 0.05 0.10 0.15
+
+One PNG per time (default: the last), coloured by speed, with the outline of
+the mesh and the time. A case without time directories of its own is read from
+its processor directories; --decomposed asks for that. Prints for each time how
+many points ParaView found: `<time> s: <n> points, <file>`.
+"""
+
+import argparse
+import math
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+from paraview import servermanager
+from paraview.simple import (
+    CellCenters, ColorBy, CreateRenderView, ExtractSurface, FeatureEdges,
+    GetColorTransferFunction, GetScalarBar, Hide, MergeBlocks,
+    OpenFOAMReader, Render, SaveScreenshot, Show, Text, TrivialProducer)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+
+WIDTH = 1200        # pixels
+TEXT = [0.1, 0.1, 0.1]
+
+
+def parse():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("times", nargs="*", type=float)
+    parser.add_argument("--case", default=".", type=Path)
+    parser.add_argument("--cloud", default="water")
+    parser.add_argument("--output", type=Path,
+                        help="directory of the pictures (default: the case)")
+    parser.add_argument("--decomposed", action="store_true",
+                        help="read the processor directories")
+    parser.add_argument("--maxSpeed", type=float,
+                        help="end of the colour scale in m/s (default: the"
+                             "\n99.9 percentile over all pictures)")
+    return parser.parse_args()
+
+
+def openCase(case, cloud, decomposed):
+    # ParaView takes the case directory from any file in it
+    stub = case/"case.foam"
+    stub.touch()
+    reader = OpenFOAMReader(FileName=str(stub.resolve()))
+    own = any(re.fullmatch(r"[0-9.]+(e-?[0-9]+)?", p.name)
+              and float(p.name) > 0 for p in case.iterdir() if p.is_dir())
+    parallel = decomposed or (not own and (case/"processor0").is_dir())
+    reader.CaseType = "Decomposed Case" if parallel else "Reconstructed Case"
+    reader.SkipZeroTime = 0
+    reader.UpdatePipelineInformation()
+    region = f"lagrangian/{cloud}"
+    if region not in reader.MeshRegions.Available:
+        sys.exit(f"{case}: ParaView finds no {region}; there is "
+                 + " ".join(reader.MeshRegions.Available))
+    reader.MeshRegions = ["internalMesh", region]
+    reader.CellArrays = []
+    reader.LagrangianArrays = ["U"]
+    return reader
+
+
+def leaves(data):
+    """The data sets of a tree of blocks, with the path of their names"""
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        name = iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME()) \
+            if iterator.HasCurrentMetaData() else ""
+        yield name or "", iterator.GetCurrentDataObject()
+        iterator.GoToNextItem()
+
+
+def split(data):
+    """(points of the cloud, mesh): the blocks of what the reader gives"""
+    clouds, meshes = [], []
+    for _, block in leaves(data):
+        if block.IsA("vtkPolyData"):
+            clouds.append(block)
+        elif block.GetNumberOfCells():
+            meshes.append(block)
+    return clouds, meshes
+
+
+def upAxis(case):
+    """The direction against gravity, y where there is none"""
+    try:
+        text = (case/"constant"/"g").read_text()
+        value = re.search(r"value\s+\(([^)]*)\)", text)[1]
+        g = np.array(value.split(), dtype=float)
+        if np.linalg.norm(g) > 0:
+            return -g/np.linalg.norm(g)
+    except (OSError, TypeError, ValueError):
+        pass
+    return np.array([0.0, 1.0, 0.0])
+
+
+def setCamera(view, points, cellSize, up):
+    """Whole mesh in view. Returns pixels per metre."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre, extent = (low + high)/2, high - low
+    flat = extent[2] < 1.5*cellSize
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = list(centre)
+    if flat:
+        view.CameraPosition = list(centre + [0, 0, max(extent)])
+        view.CameraViewUp = [0, 1, 0]
+        width, height = extent[0], extent[1]
+    else:
+        across = np.cross([0, 0, 1], up) if abs(up[2]) < 0.9 \
+            else np.array([0.0, -1.0, 0.0])
+        direction = across + np.array([0.45, 0, 0]) + 0.45*up
+        direction /= np.linalg.norm(direction)
+        view.CameraPosition = list(centre + 2*np.linalg.norm(extent)*direction)
+        view.CameraViewUp = list(up)
+        right = np.cross(up, direction)
+        right /= np.linalg.norm(right)
+        upward = np.cross(direction, right)
+        width = np.abs(right) @ extent
+        height = np.abs(upward) @ extent
+    pixels = WIDTH*0.94/width
+    # Room for the time above and the colour scale below
+    size = [WIDTH, int(height*pixels + 0.14*WIDTH)]
+    view.ViewSize = size
+    view.CameraParallelScale = 0.5*size[1]/pixels
+    return pixels
+
+
+def show(points, speed, view, maxSpeed, pixelSize):
+    display = Show(points, view)
+    display.SetRepresentationType("Points")
+    display.PointSize = pixelSize
+    ColorBy(display, ("POINTS", "U", "Magnitude"))
+    scale = GetColorTransferFunction("U")
+    scale.ApplyPreset("Viridis (matplotlib)", True)
+    scale.VectorMode = "Magnitude"
+    scale.RescaleTransferFunction(0, maxSpeed)
+    bar = GetScalarBar(scale, view)
+    bar.Title, bar.ComponentTitle = "speed [m/s]", ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Any Location"
+    bar.Position = [0.30, 0.03]
+    bar.ScalarBarLength = 0.4
+    bar.ScalarBarThickness = 12
+    bar.TitleFontSize = bar.LabelFontSize = 12
+    bar.TitleColor = bar.LabelColor = TEXT
+    bar.AddRangeLabels = 1
+    bar.RangeLabelFormat = bar.LabelFormat = "%.3g"
+    display.SetScalarBarVisibility(view, True)
+    return display
+
+
+def main():
+    arguments = parse()
+    case, cloud = arguments.case, arguments.cloud
+    output = arguments.output or case
+    output.mkdir(parents=True, exist_ok=True)
+    reader = openCase(case, cloud, arguments.decomposed)
+
+    available = list(reader.TimestepValues)
+    if not available:
+        sys.exit(f"{case}: no times")
+    times = [min(available, key=lambda t: abs(t - wanted))
+             for wanted in arguments.times] or available[-1:]
+
+    # One pass to know the colour scale and the spacing of the points
+    found, speeds = {}, []
+    for time in times:
+        reader.UpdatePipeline(time)
+        clouds, meshes = split(servermanager.Fetch(reader))
+        found[time] = clouds
+        speeds += [np.linalg.norm(vtk_to_numpy(
+            block.GetPointData().GetArray("U")), axis=1)
+            for block in clouds if block.GetNumberOfPoints()]
+    speeds = np.concatenate(speeds or [np.zeros(1)])
+    maxSpeed = arguments.maxSpeed or float(np.percentile(speeds, 99.9)) or 1.0
+
+    meshPoints = np.concatenate([vtk_to_numpy(m.GetPoints().GetData())
+                                 for m in meshes])
+    corners = vtk_to_numpy(
+        next(m for m in meshes).GetCell(0).GetPoints().GetData())
+    cellSize = float(np.ptp(corners, axis=0).max())
+
+    view = CreateRenderView()
+    view.Background = [1, 1, 1]
+    view.UseColorPaletteForBackground = 0
+    view.OrientationAxesVisibility = 0
+    up = upAxis(case)
+    pixels = setCamera(view, meshPoints, cellSize, up)
+
+    surface = ExtractSurface(Input=MergeBlocks(Input=reader))
+    outline = Show(FeatureEdges(Input=surface, BoundaryEdges=0,
+                                FeatureAngle=30), view)
+    outline.AmbientColor = outline.DiffuseColor = TEXT
+    outline.LineWidth = 1.5
+
+    label = Text()
+    labelDisplay = Show(label, view)
+    labelDisplay.WindowLocation = "Upper Left Corner"
+    labelDisplay.FontSize = 16
+    labelDisplay.Color = TEXT
+
+    for time in times:
+        blocks = [b for b in found[time] if b.GetNumberOfPoints()]
+        count = sum(b.GetNumberOfPoints() for b in blocks)
+        view.ViewTime = time
+        reader.UpdatePipeline(time)
+        label.Text = f"t = {time:.4g} s"
+
+        producers = []
+        for block in blocks:
+            producer = TrivialProducer()
+            producer.GetClientSideObject().SetOutput(block)
+            producer.UpdatePipeline()
+            points = vtk_to_numpy(block.GetPoints().GetData())
+            spacing = pointSpacing(points, corners)
+            show(producer, speeds, view, maxSpeed, max(1.5, spacing*pixels))
+            producers.append(producer)
+
+        # The first rendering of a view moves its camera
+        Render(view)
+        setCamera(view, meshPoints, cellSize, up)
+        path = output/f"{cloud}_t{time:.10g}.png"
+        SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
+        for producer in producers:
+            Hide(producer, view)
+        print(f"{time:.10g} s: {count} points, {path}")
+
+
+def pointSpacing(points, corners):
+    """Mean distance of points: a cell's size over the root of how many it
+    holds, in the median of the cells that hold any"""
+    size = np.ptp(corners, axis=0)
+    cells = np.floor(points/size).astype(np.int64)
+    _, counts = np.unique(cells, axis=0, return_counts=True)
+    flat = np.ptp(points[:, 2]) < size[2]
+    return float(size.max())/math.pow(np.median(counts), 1/2 if flat else 1/3)
+
+
+main()
