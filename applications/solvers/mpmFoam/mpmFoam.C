@@ -1,0 +1,108 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+
+Application
+    mpmFoam
+
+Group
+    grpLagrangianSolvers
+
+Description
+    Water, soil, and the erosion of soil by water with the Material Point
+    Method: material points carry the state, the mesh is the background grid
+    on which they exchange momentum.
+
+    SIGTERM and stopAt writeNow end the run after writing a restart.
+
+\*---------------------------------------------------------------------------*/
+
+#include "argList.H"
+#include "Time.H"
+#include "fvMesh.H"
+#include "sigFpe.H"
+#include "PstreamReduceOps.H"
+#include "materialPointSystem.H"
+#include <csignal>
+
+namespace
+{
+    volatile std::sig_atomic_t terminated = 0;
+
+    void terminate(int)
+    {
+        terminated = 1;
+    }
+}
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+int main(int argc, char *argv[])
+{
+    using namespace Foam;
+
+    argList::addNote
+    (
+        "Material point method for water, soil, and erosion of soil by water"
+    );
+
+    #include "setRootCase.H"
+
+    // The kernels are compiled for machines that do not trap; non-finite
+    // values are looked for after each step instead
+    sigFpe::unset(false);
+
+    mpm::materialPointSystem::setIncompleteTimesAside(args);
+
+    #include "createTime.H"
+    #include "createMesh.H"
+
+    mpm::materialPointSystem points(mesh);
+    points.read();
+    points.reportEffects();
+
+    std::signal(SIGTERM, terminate);
+
+    Info<< "Starting time loop\n" << endl;
+
+    while (runTime.run())
+    {
+        points.setDeltaT(runTime);
+        ++runTime;
+
+        points.particlesToGrid();
+        points.updateStress();
+        points.updateNodes();
+        points.gridToParticles();
+        points.relocate();
+
+        points.checkFinite(runTime);
+
+        if (returnReduce(label(terminated), maxOp<label>()))
+        {
+            Info<< "SIGTERM: writing a restart and ending the run" << nl
+                << endl;
+            runTime.stopAt(Time::stopAtControls::saWriteNow);
+        }
+
+        points.updateMeshFields();
+        points.cost().start("output");
+        if (runTime.write() && runTime.writeTime())
+        {
+            points.writeState();
+        }
+        points.cost().stop();
+
+        points.log(runTime);
+        points.cost().start("function objects");
+    }
+    points.cost().stop();
+
+    points.reportCosts();
+
+    Info<< "End\n" << endl;
+
+    return 0;
+}
+
+// ************************************************************************* //

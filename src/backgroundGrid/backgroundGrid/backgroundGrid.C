@@ -1,0 +1,291 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "backgroundGrid.H"
+#include "Pstream.H"
+#include "PstreamBuffers.H"
+#include "PstreamReduceOps.H"
+#include "bitSet.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::backgroundGrid::selectShapeFunction(const dictionary& mpmDict)
+{
+    shapeFunction_ =
+        mpmDict.lookupOrDefault<word>("shapeFunction", quadraticBSpline::name);
+
+    auto adopt = [&](const auto shape)
+    {
+        typedef decltype(shape) Shape;
+        tileWidth_ = Shape::tileWidth;
+        tileStart_ = Shape::tileStart;
+        cellIntegral_.setSize(tileWidth_);
+        for (label t = 0; t < tileWidth_; ++t)
+        {
+            cellIntegral_[t] = Shape::cellIntegral[t];
+        }
+    };
+
+    if (shapeFunction_ == linear::name)
+    {
+        adopt(linear());
+    }
+    else if (shapeFunction_ == quadraticBSpline::name)
+    {
+        adopt(quadraticBSpline());
+    }
+    else if (shapeFunction_ == cubicBSpline::name)
+    {
+        adopt(cubicBSpline());
+    }
+    else
+    {
+        FatalIOErrorInFunction(mpmDict)
+            << "keyword shapeFunction: unknown shape function "
+            << shapeFunction_ << nl << "    Valid names: "
+            << linear::name << ' ' << quadraticBSpline::name << ' '
+            << cubicBSpline::name << exit(FatalIOError);
+    }
+}
+
+
+void Foam::mpm::backgroundGrid::buildBox()
+{
+    const label nCells = mesh().nCells();
+
+    index3 upper;
+    for (label d = 0; d < 3; ++d)
+    {
+        lower_[d] = nCells ? labelMax : 0;
+        upper[d] = nCells ? labelMin : -1;
+    }
+    for (label celli = 0; celli < nCells; ++celli)
+    {
+        const index3& i = lattice_.cellIndex(celli);
+        for (label d = 0; d < 3; ++d)
+        {
+            lower_[d] = min(lower_[d], i[d]);
+            upper[d] = max(upper[d], i[d]);
+        }
+    }
+
+    for (label d = 0; d < 3; ++d)
+    {
+        const bool solved = d < nDim();
+        const label m = solved ? margin : 0;
+        lower_[d] -= m;
+        nNodes_[d] = solved ? upper[d] + 2 + m - lower_[d] : 1;
+    }
+    stride_ = {1, nNodes_[0], nNodes_[0]*nNodes_[1]};
+
+    meshCell_.setSize(nNodes(), -1);
+    boxCell_.setSize(nCells);
+    for (label celli = 0; celli < nCells; ++celli)
+    {
+        index3 i = lattice_.cellIndex(celli);
+        for (label d = 0; d < 3; ++d) i[d] -= lower_[d];
+        boxCell_[celli] = index(i);
+        meshCell_[boxCell_[celli]] = celli;
+    }
+}
+
+
+void Foam::mpm::backgroundGrid::exchangeCellOwners()
+{
+    cellRank_.setSize(nNodes());
+    cellRank_ = missing;
+
+    // Lattice indices of the cells of each rank that may lie in my box
+    List<List<index3>> cells(Pstream::nProcs());
+
+    if (Pstream::parRun())
+    {
+        List<Pair<index3>> boxes(Pstream::nProcs());
+        boxes[Pstream::myProcNo()] = Pair<index3>(lower_, nNodes_);
+        Pstream::gatherList(boxes);
+        Pstream::scatterList(boxes);
+
+        PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
+        for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+        {
+            DynamicList<index3> inside;
+            for (label celli = 0; celli < mesh().nCells(); ++celli)
+            {
+                const index3& i = lattice_.cellIndex(celli);
+                bool in = true;
+                for (label d = 0; d < nDim(); ++d)
+                {
+                    const label j = i[d] - boxes[rank].first()[d];
+                    in = in
+                     && (
+                            lattice_.periodic(d)
+                         || (j >= 0 && j < boxes[rank].second()[d])
+                        );
+                }
+                if (in) inside.append(i);
+            }
+            UOPstream to(rank, buffers);
+            to << inside;
+        }
+        buffers.finishedSends();
+        for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+        {
+            UIPstream from(rank, buffers);
+            from >> cells[rank];
+        }
+    }
+    else
+    {
+        cells[0].setSize(mesh().nCells());
+        forAll(cells[0], celli) cells[0][celli] = lattice_.cellIndex(celli);
+    }
+
+    // Each cell marks all of its periodic images that lie in the box
+    forAll(cells, rank)
+    {
+        for (const index3& cell : cells[rank])
+        {
+            index3 first, last;
+            for (label d = 0; d < 3; ++d)
+            {
+                const bool wrap = d < nDim() && lattice_.periodic(d);
+                first[d] = wrap ? -1 : 0;
+                last[d] = wrap ? 1 : 0;
+            }
+            index3 w;
+            for (w[2] = first[2]; w[2] <= last[2]; ++w[2])
+            for (w[1] = first[1]; w[1] <= last[1]; ++w[1])
+            for (w[0] = first[0]; w[0] <= last[0]; ++w[0])
+            {
+                index3 i;
+                bool in = true;
+                for (label d = 0; d < 3; ++d)
+                {
+                    i[d] = cell[d] + w[d]*lattice_.nCells(d) - lower_[d];
+                    in = in && i[d] >= 0 && i[d] < nNodes_[d];
+                }
+                if (in) cellRank_[index(i)] = rank;
+            }
+        }
+    }
+}
+
+
+void Foam::mpm::backgroundGrid::checkWallThickness() const
+{
+    forAll(boxCell_, celli)
+    {
+        const label c = boxCell_[celli];
+        for (label d = 0; d < nDim(); ++d)
+        {
+            if
+            (
+                cellRank_[c + stride_[d]] == missing
+             && cellRank_[c + 2*stride_[d]] != missing
+            )
+            {
+                FatalErrorInFunction
+                    << "the mesh in "
+                    << mesh().pointsInstance()/mesh().meshDir()
+                    << " has a wall one cell thick next to cell " << celli
+                    << " at " << mesh().cellCentres()[celli]
+                    << ", direction " << vector::componentNames[lattice_.axis(d)]
+                    << '.' << nl << "    Both sides mirror the flow at the"
+                    << " wall; walls need at least two cells."
+                    << exit(FatalError);
+            }
+        }
+    }
+}
+
+
+void Foam::mpm::backgroundGrid::buildExchange()
+{
+    // Nodes that the tiles of own cells reach, and their neighbours
+    bitSet used(nNodes());
+    const label lo = min(tileStart_, label(0)) - 1;
+    const label hi = max(tileStart_ + tileWidth_ - 1, label(1)) + 1;
+    const bool is3D = nDim() == 3;
+
+    forAll(boxCell_, celli)
+    {
+        for (label k = (is3D ? lo : 0); k <= (is3D ? hi : 0); ++k)
+        for (label j = lo; j <= hi; ++j)
+        for (label i = lo; i <= hi; ++i)
+        {
+            used.set(boxCell_[celli] + i + j*stride_[1] + k*stride_[2]);
+        }
+    }
+
+    // Only those can have copies that are near another rank or a cyclic end
+    DynamicList<label> nodes;
+    DynamicList<int64_t> ids;
+    bool shared = Pstream::parRun();
+    for (label d = 0; d < nDim(); ++d) shared = shared || lattice_.periodic(d);
+
+    if (shared)
+    {
+        for (const label node : used)
+        {
+            const index3 i = coordinate(node);
+            int64_t id = 0;
+            for (label d = nDim() - 1; d >= 0; --d)
+            {
+                label g = i[d] + lower_[d];
+                const label n = lattice_.nCells(d);
+                if (lattice_.periodic(d)) g = ((g % n) + n) % n;
+
+                // Room for the ghost nodes outside of the lattice
+                id = id*(n + 2*margin + 2) + (g + margin);
+            }
+            nodes.append(node);
+            ids.append(id);
+        }
+    }
+    exchange_.reset(new nodeExchange(nodes, ids));
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::backgroundGrid::backgroundGrid
+(
+    const polyMesh& mesh,
+    const dictionary& mpmDict
+)
+:
+    lattice_(mesh)
+{
+    selectShapeFunction(mpmDict);
+    buildBox();
+    exchangeCellOwners();
+    checkWallThickness();
+    buildExchange();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::point Foam::mpm::backgroundGrid::nodePosition(const label node) const
+{
+    const index3 i = coordinate(node);
+    point x(Zero);
+    for (label d = 0; d < nDim(); ++d)
+    {
+        x[lattice_.axis(d)] =
+            lattice_.origin(d) + (i[d] + lower_[d])*lattice_.spacing(d);
+    }
+    if (nDim() == 2) x[lattice_.axis(2)] = lattice_.midPlane();
+    return x;
+}
+
+
+size_t Foam::mpm::backgroundGrid::memory() const
+{
+    return sizeof(label)
+       *size_t(cellRank_.size() + meshCell_.size() + boxCell_.size());
+}
+
+// ************************************************************************* //

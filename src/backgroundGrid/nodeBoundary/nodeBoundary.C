@@ -1,0 +1,520 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "FlatOutput.H"
+#include "nodeBoundary.H"
+#include "volFields.H"
+#include "localIOdictionary.H"
+#include "HashTable.H"
+
+namespace
+{
+    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry"});
+    const Foam::wordList fixedTypes({"noSlip", "fixedValue"});
+    const Foam::wordList openTypes({"zeroGradient", "inletOutlet"});
+    const Foam::wordList otherTypes
+        ({"cyclic", "empty", "processor", "processorCyclic"});
+
+    //- The record with every slot one
+    inline Foam::mpm::nodeVector ones()
+    {
+        return Foam::mpm::nodeVector{1, 1, 1, 1};
+    }
+
+    //- Side number of direction d, sign s
+    inline Foam::label sideOf(const Foam::label d, const Foam::label s)
+    {
+        return 2*d + (s > 0);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::nodeBoundary::findSides
+(
+    const volVectorField& U,
+    List<FixedList<sideType, 6>>& side,
+    HashTable<nodeVector, label, Hash<label>>& wallVelocity
+)
+{
+    const lattice& cells = grid_.cells();
+
+    side.setSize(grid_.mesh().nCells(), FixedList<sideType, 6>(inner));
+
+    for (const fvPatchVectorField& Up : U.boundaryField())
+    {
+        const word& type = Up.type();
+        sideType kind = inner;
+
+        if (slipTypes.found(type)) kind = slipWall;
+        else if (fixedTypes.found(type)) kind = fixedWall;
+        else if (openTypes.found(type)) kind = open;
+        else if (!otherTypes.found(type))
+        {
+            localIOdictionary file
+            (
+                IOobject
+                (
+                    U.name(),
+                    U.instance(),
+                    U.db(),
+                    IOobject::MUST_READ,
+                    IOobject::NO_WRITE,
+                    false
+                ),
+                volVectorField::typeName
+            );
+            FatalIOErrorInFunction
+            (
+                file.subDict("boundaryField").subDict(Up.patch().name())
+            )   << "patch " << Up.patch().name() << ", keyword type: "
+                << type << " is not a boundary condition of material points."
+                << nl << "    Allowed: " << flatOutput(slipTypes) << " (walls"
+                << " that slip), " << flatOutput(fixedTypes)
+                << " (walls that stick or move), " << flatOutput(openTypes)
+                << " (openings), cyclic, empty" << exit(FatalIOError);
+        }
+        if (kind == inner) continue;
+
+        const labelUList& faceCells = Up.patch().faceCells();
+        const vectorField n(Up.patch().nf());
+
+        forAll(faceCells, i)
+        {
+            label d, s;
+            cells.faceDirection(n[i], d, s);
+            if (d < 0) continue;
+
+            side[faceCells[i]][2*d + s] = kind;
+            if (kind == open)
+            {
+                beyondOpening_.insert
+                (
+                    grid_.boxCell(faceCells[i])
+                  + (s ? 1 : -1)*grid_.stride(d)
+                );
+            }
+            else if (kind == fixedWall)
+            {
+                nodeVector value{};
+                for (label k = 0; k < grid_.nDim(); ++k)
+                {
+                    value[k] = Up[i][cells.axis(k)];
+                }
+                wallVelocity.set(6*faceCells[i] + 2*d + s, value);
+            }
+        }
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::buildStencils
+(
+    const List<FixedList<sideType, 6>>& side,
+    const HashTable<nodeVector, label, Hash<label>>& wallVelocity
+)
+{
+    const label nDim = grid_.nDim();
+    const label T = grid_.tileWidth();
+    const label tileSize = grid_.tileSize();
+
+    stencilIndex_.setSize(grid_.nNodes(), -1);
+    label nStencils = 0;
+
+    std::vector<label> target(tileSize);
+    std::vector<nodeVector> sign(tileSize), shift(tileSize);
+
+    forAll(side, celli)
+    {
+        const label cell = grid_.boxCell(celli);
+        bool plain = true;
+
+        for (label t = 0; t < tileSize; ++t)
+        {
+            // Node relative to the lower corner of the cell, and on which
+            // side of the cell it lies
+            index3 o, s;
+            label rest = t;
+            for (label d = 0; d < 3; ++d)
+            {
+                const bool solved = d < nDim;
+                o[d] = solved ? rest % T + grid_.tileStart() : 0;
+                rest /= T;
+                s[d] = o[d] < 0 ? -1 : o[d] > 1 ? 1 : 0;
+            }
+
+            nodeVector sg = ones();
+            nodeVector sh{};
+
+            for (label d = 0; d < nDim; ++d)
+            {
+                if (!s[d]) continue;
+                const sideType kind = side[celli][sideOf(d, s[d])];
+
+                if (kind == slipWall || kind == fixedWall)
+                {
+                    // Mirror about the wall
+                    o[d] = s[d] < 0 ? -o[d] : 2 - o[d];
+                    if (kind == slipWall)
+                    {
+                        sg[d] = -sg[d];
+                        sh[d] = -sh[d];
+                    }
+                    else
+                    {
+                        const nodeVector& wall =
+                            wallVelocity[6*celli + sideOf(d, s[d])];
+                        for (label k = 0; k < nDim; ++k)
+                        {
+                            sg[k] = -sg[k];
+                            sh[k] = 2*wall[k] - sh[k];
+                        }
+                    }
+                    s[d] = 0;
+                    plain = false;
+                }
+                else if (kind == open)
+                {
+                    s[d] = 0;
+                }
+            }
+
+            // Convex corners: fold along the smallest set of directions
+            // whose diagonal cell is missing
+            for (label size = 2; size <= nDim; ++size)
+            {
+                for (label set = 1; set < (1 << nDim); ++set)
+                {
+                    label n = 0, neighbour = cell;
+                    for (label d = 0; d < nDim; ++d)
+                    {
+                        if (!(set & (1 << d))) continue;
+                        if (s[d])
+                        {
+                            ++n;
+                            neighbour += s[d]*grid_.stride(d);
+                        }
+                        else
+                        {
+                            n = -nDim;
+                        }
+                    }
+                    if
+                    (
+                        n == size
+                     && grid_.cellRank(neighbour) == backgroundGrid::missing
+                    )
+                    {
+                        for (label d = 0; d < nDim; ++d)
+                        {
+                            if (!(set & (1 << d))) continue;
+                            o[d] = s[d] < 0 ? 0 : 1;
+                            s[d] = 0;
+                        }
+                        plain = false;
+                    }
+                }
+            }
+
+            label node = cell;
+            for (label d = 0; d < nDim; ++d) node += o[d]*grid_.stride(d);
+            target[t] = node;
+            sign[t] = sg;
+            shift[t] = sh;
+        }
+
+        if (!plain)
+        {
+            stencilIndex_[cell] = nStencils++;
+            target_.insert(target_.end(), target.begin(), target.end());
+            sign_.insert(sign_.end(), sign.begin(), sign.end());
+            shift_.insert(shift_.end(), shift.begin(), shift.end());
+        }
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::buildConstraints
+(
+    const List<FixedList<sideType, 6>>& side,
+    const HashTable<nodeVector, label, Hash<label>>& wallVelocity
+)
+{
+    const label nDim = grid_.nDim();
+    const label nCorners = 1 << nDim;
+
+    // Walls on each side of a node, and the sum of velocities of those that
+    // have one (number in slot 3)
+    nodeField<packed<8>> walls(grid_.nNodes(), packed<8>{});
+    nodeField<nodeVector> given(grid_.nNodes(), nodeVector{});
+    bitSet candidates(grid_.nNodes());
+
+    forAll(side, celli)
+    {
+        for (label d = 0; d < nDim; ++d)
+        for (label s = 0; s < 2; ++s)
+        {
+            const sideType kind = side[celli][2*d + s];
+            if (kind != slipWall && kind != fixedWall) continue;
+
+            for (label corner = 0; corner < nCorners; ++corner)
+            {
+                if (((corner >> d) & 1) != s) continue;
+
+                label node = grid_.boxCell(celli);
+                for (label k = 0; k < nDim; ++k)
+                {
+                    node += ((corner >> k) & 1)*grid_.stride(k);
+                }
+                walls[node][2*d + s] += 1;
+                if (kind == fixedWall)
+                {
+                    nodeVector value = wallVelocity[6*celli + 2*d + s];
+                    value[3] = 1;
+                    given[node] += value;
+                }
+            }
+        }
+    }
+    grid_.exchange().sum(walls);
+    grid_.exchange().sum(given);
+
+    DynamicList<label> slipNodes, fixedNodes;
+
+    for (label node = 0; node < grid_.nNodes(); ++node)
+    {
+        bool any = false;
+        for (label i = 0; i < 2*nDim; ++i) any = any || walls[node][i] > 0;
+        if (!any) continue;
+
+        if (given[node][3] > 0)
+        {
+            nodeVector value = given[node]/given[node][3];
+            for (label k = nDim; k < 4; ++k) value[k] = 0;
+            fixedNodes.append(node);
+            fixedValue_.push_back(value);
+            continue;
+        }
+
+        // Is every cell around the node in the given orthants missing?
+        auto blocked = [&](const index3& s)
+        {
+            for (label corner = 0; corner < nCorners; ++corner)
+            {
+                label cell = node;
+                bool inOrthant = true;
+                for (label d = 0; d < nDim; ++d)
+                {
+                    const label c = ((corner >> d) & 1) ? 1 : -1;
+                    inOrthant = inOrthant && (s[d] == 0 || s[d] == c);
+                    if (c < 0) cell -= grid_.stride(d);
+                }
+                if
+                (
+                    inOrthant
+                 && cell >= 0
+                 && grid_.cellRank(cell) != backgroundGrid::missing
+                ) return false;
+            }
+            return true;
+        };
+
+        // Flat walls
+        nodeVector mask = ones();
+        FixedList<bool, 6> convex(false);
+        for (label d = 0; d < nDim; ++d)
+        for (label s = -1; s < 2; s += 2)
+        {
+            if (walls[node][sideOf(d, s)] == 0) continue;
+            index3 into;
+            into = 0;
+            into[d] = s;
+            if (blocked(into)) mask[d] = 0;
+            else convex[sideOf(d, s)] = true;
+        }
+        bool anyFlat = false;
+        for (label d = 0; d < nDim; ++d) anyFlat = anyFlat || mask[d] == 0;
+        if (anyFlat)
+        {
+            slipNodes.append(node);
+            slipMask_.push_back(mask);
+        }
+
+        // Convex edges, then corners that no edge explains
+        bool anyEdge = false;
+        for (label d = 0; d < nDim; ++d)
+        for (label k = d + 1; k < nDim; ++k)
+        for (label sd = -1; sd < 2; sd += 2)
+        for (label sk = -1; sk < 2; sk += 2)
+        {
+            if (!convex[sideOf(d, sd)] || !convex[sideOf(k, sk)]) continue;
+            index3 into;
+            into = 0;
+            into[d] = sd;
+            into[k] = sk;
+            if (blocked(into))
+            {
+                cone c{node, nodeVector{}};
+                c.intoSolid[d] = sd;
+                c.intoSolid[k] = sk;
+                cones_.push_back(c);
+                anyEdge = true;
+            }
+        }
+        if (nDim == 3 && !anyEdge)
+        {
+            for (label corner = 0; corner < nCorners; ++corner)
+            {
+                index3 into;
+                bool all = true;
+                cone c{node, nodeVector{}};
+                for (label d = 0; d < 3; ++d)
+                {
+                    into[d] = ((corner >> d) & 1) ? 1 : -1;
+                    c.intoSolid[d] = into[d];
+                    all = all && convex[sideOf(d, into[d])];
+                }
+                if (all && blocked(into)) cones_.push_back(c);
+            }
+        }
+    }
+    slipNodes_.transfer(slipNodes);
+    fixedNodes_.transfer(fixedNodes);
+}
+
+
+void Foam::mpm::nodeBoundary::buildControlVolumes()
+{
+    const label nDim = grid_.nDim();
+    const label T = grid_.tileWidth();
+
+    inverseVolume_.assign(grid_.nNodes(), 0);
+
+    for (label celli = 0; celli < grid_.mesh().nCells(); ++celli)
+    {
+        const label cell = grid_.boxCell(celli);
+        const label s = stencil(cell);
+
+        for (label t = 0; t < grid_.tileSize(); ++t)
+        {
+            scalar v = grid_.cells().cellVolume()
+               *grid_.cellIntegral(t % T)*grid_.cellIntegral((t/T) % T);
+            if (nDim == 3) v *= grid_.cellIntegral(t/(T*T));
+
+            const label node =
+                s < 0
+              ? cell + grid_.tileOffset() + grid_.tileNode(t)
+              : targets(s)[t];
+            inverseVolume_[node] += v;
+        }
+    }
+    grid_.exchange().sum(inverseVolume_);
+
+    for (scalar& v : inverseVolume_)
+    {
+        v = v > 0 ? 1/v : 0;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::nodeBoundary::nodeBoundary
+(
+    const backgroundGrid& grid,
+    const volVectorField& U
+)
+:
+    grid_(grid)
+{
+    List<FixedList<sideType, 6>> side;
+    HashTable<nodeVector, label, Hash<label>> wallVelocity;
+
+    findSides(U, side, wallVelocity);
+    buildStencils(side, wallVelocity);
+    buildConstraints(side, wallVelocity);
+    buildControlVolumes();
+
+    activeSlip_ = identity(slipNodes_.size());
+    activeFixed_ = identity(fixedNodes_.size());
+    activeCones_ = identity(label(cones_.size()));
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::nodeBoundary::activate(const bitSet& active)
+{
+    DynamicList<label> list;
+
+    forAll(slipNodes_, i) if (active.test(slipNodes_[i])) list.append(i);
+    activeSlip_ = list;
+
+    list.clear();
+    forAll(fixedNodes_, i) if (active.test(fixedNodes_[i])) list.append(i);
+    activeFixed_ = list;
+
+    list.clear();
+    for (label i = 0; i < label(cones_.size()); ++i)
+    {
+        if (active.test(cones_[i].node)) list.append(i);
+    }
+    activeCones_ = list;
+}
+
+
+void Foam::mpm::nodeBoundary::constrain
+(
+    nodeField<nodeVector>& velocity,
+    const bool homogeneous
+) const
+{
+    const label nDim = grid_.nDim();
+
+    for (const label i : activeSlip_)
+    {
+        velocity[slipNodes_[i]] *= slipMask_[i];
+    }
+
+    for (const label i : activeFixed_)
+    {
+        nodeVector& v = velocity[fixedNodes_[i]];
+        for (label d = 0; d < nDim; ++d)
+        {
+            v[d] = homogeneous ? 0 : fixedValue_[i][d];
+        }
+    }
+
+    for (const label i : activeCones_)
+    {
+        const cone& c = cones_[i];
+        nodeVector& v = velocity[c.node];
+
+        bool into = true;
+        for (label d = 0; d < nDim; ++d)
+        {
+            into = into && (c.intoSolid[d] == 0 || v[d]*c.intoSolid[d] > 0);
+        }
+        if (into)
+        {
+            for (label d = 0; d < nDim; ++d)
+            {
+                if (c.intoSolid[d] != 0) v[d] = 0;
+            }
+        }
+    }
+}
+
+
+size_t Foam::mpm::nodeBoundary::memory() const
+{
+    return
+        sizeof(label)*(stencilIndex_.size() + target_.size())
+      + sizeof(nodeVector)*(sign_.size() + shift_.size())
+      + sizeof(scalar)*inverseVolume_.size();
+}
+
+// ************************************************************************* //

@@ -1,0 +1,122 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "cellOrder.H"
+#include <algorithm>
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::cellOrder::cellOrder(const backgroundGrid& grid)
+:
+    grid_(grid),
+    number_(grid.nNodes(), -1),
+    nodes_(grid.nNodes()),
+    shared_(grid.exchange().sharedNodes())
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::cellOrder::activate(const pointStorage& points)
+{
+    for (const label cell : cells_) number_[cell] = -1;
+    cells_.clear();
+
+    // Occupied cells
+    const label* cell = points.cell();
+    label last = -1;
+    for (label p = 0; p < points.size(); ++p)
+    {
+        if (cell[p] == last) continue;
+        last = cell[p];
+        if (number_[last] < 0)
+        {
+            number_[last] = 0;
+            cells_.push_back(last);
+        }
+    }
+
+    // Their neighbours on this rank
+    const bool is3D = grid_.nDim() == 3;
+    const size_t nOccupied = cells_.size();
+    for (size_t c = 0; c < nOccupied; ++c)
+    {
+        for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
+        for (label j = -1; j <= 1; ++j)
+        for (label i = -1; i <= 1; ++i)
+        {
+            const label neighbour =
+                cells_[c] + i + j*grid_.stride(1) + k*grid_.stride(2);
+            if (grid_.ownCell(neighbour) && number_[neighbour] < 0)
+            {
+                number_[neighbour] = 0;
+                cells_.push_back(neighbour);
+            }
+        }
+    }
+    std::sort(cells_.begin(), cells_.end());
+    for (size_t c = 0; c < cells_.size(); ++c) number_[cells_[c]] = c;
+
+    // Nodes of the tiles: row by row for each row of adjacent cells
+    for (const auto& range : ranges_)
+    {
+        nodes_.unset(labelRange(range.first, range.second - range.first));
+    }
+    const label T = grid_.tileWidth();
+    for (size_t c = 0; c < cells_.size();)
+    {
+        const label first = cells_[c];
+        label n = 1;
+        while (++c < cells_.size() && cells_[c] == first + n) ++n;
+
+        for (label k = 0; k < (is3D ? T : 1); ++k)
+        for (label j = 0; j < T; ++j)
+        {
+            const label node = first + grid_.tileOffset()
+              + j*grid_.stride(1) + k*grid_.stride(2);
+            nodes_.set(labelRange(node, n - 1 + T));
+        }
+    }
+    for (const label node : shared_) nodes_.set(node);
+
+    ranges_.clear();
+    for (const label node : nodes_)
+    {
+        if (ranges_.size() && ranges_.back().second == node)
+        {
+            ++ranges_.back().second;
+        }
+        else
+        {
+            ranges_.emplace_back(node, node + 1);
+        }
+    }
+}
+
+
+void Foam::mpm::cellOrder::sort(pointStorage& points)
+{
+    const label n = points.size();
+    const label* cell = points.cell();
+
+    start_.assign(cells_.size() + 1, 0);
+    for (label p = 0; p < n; ++p) ++start_[number_[cell[p]] + 1];
+    for (size_t c = 0; c < cells_.size(); ++c) start_[c + 1] += start_[c];
+
+    order_.setSize(n);
+    for (label p = 0; p < n; ++p) order_[start_[number_[cell[p]]]++] = p;
+
+    points.reorder(order_);
+}
+
+
+size_t Foam::mpm::cellOrder::memory() const
+{
+    return sizeof(label)
+       *(cells_.capacity() + number_.size() + order_.size() + start_.capacity())
+      + nodes_.size()/8;
+}
+
+// ************************************************************************* //

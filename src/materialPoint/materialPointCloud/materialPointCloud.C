@@ -1,0 +1,444 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "materialPointCloud.H"
+#include "PstreamBuffers.H"
+#include "PstreamReduceOps.H"
+#include "zeroGradientFvPatchFields.H"
+#include <algorithm>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(materialPointCloud, 0);
+}
+}
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+    //- Distance to the wall of a point that was put back, in cells
+    const Foam::scalar wallGap = 1e-9;
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::materialPointCloud::zeroNodes()
+{
+    for (const auto& range : order_.nodeRanges())
+    {
+        nodes_.zero(range.first, range.second);
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::activate(const bool sort)
+{
+    // Nodes that become inactive must be left zero
+    zeroNodes();
+    order_.activate(points_);
+    boundary_.activate(order_.nodes());
+    if (sort) order_.sort(points_);
+}
+
+
+Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
+(
+    const label point
+) const
+{
+    const lattice& cells = grid_.cells();
+    index3 i;
+    i = 0;
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        // The same arithmetic as in the kernels
+        const scalar inverse = 1/cells.spacing(d);
+        i[d] =
+            label(std::floor((x(d)[point] - cells.origin(d))*inverse))
+          - grid_.lower(d);
+    }
+    return i;
+}
+
+
+void Foam::mpm::materialPointCloud::returnFromWall(const label point)
+{
+    const lattice& cells = grid_.cells();
+    const index3 from = grid_.coordinate(points_.cell()[point]);
+    const index3 to = boxCoordinate(point);
+
+    // Clamp the direction that suffices, else all
+    index3 clampTo = from;
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        if (to[d] == from[d]) continue;
+        index3 trial = to;
+        trial[d] = from[d];
+        if (grid_.ownCell(grid_.index(trial)))
+        {
+            clampTo = trial;
+            break;
+        }
+    }
+
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        if (clampTo[d] == to[d]) continue;
+        const label i = clampTo[d] + grid_.lower(d);
+        const scalar gap = (to[d] < clampTo[d] ? wallGap : 1 - wallGap);
+        points_.column(x_ + d)[point] =
+            cells.origin(d) + (i + gap)*cells.spacing(d);
+    }
+    points_.cell()[point] = grid_.index(clampTo);
+    ++counters_.wallContacts;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::materialPointCloud::materialPointCloud
+(
+    const word& name,
+    const fvMesh& mesh,
+    const backgroundGrid& grid,
+    const dictionary& dict,
+    const settings& control,
+    costMeter& cost
+)
+:
+    cloud(mesh, name),
+    mesh_(mesh),
+    grid_(grid),
+    dict_(dict),
+    settings_(control),
+    cost_(cost),
+    points_(grid.nDim()),
+    x_(points_.add("x", pointStorage::vectorValue)),
+    v_(points_.add("U", pointStorage::vectorValue)),
+    C_(-1),
+    mass_(points_.add("mass", pointStorage::scalarValue)),
+    id_(points_.add("id", pointStorage::scalarValue)),
+    U_
+    (
+        IOobject
+        (
+            "U." + name,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::AUTO_WRITE
+        ),
+        mesh
+    ),
+    alpha_
+    (
+        IOobject
+        (
+            "alpha." + name,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::NO_READ,
+            IOobject::AUTO_WRITE
+        ),
+        mesh,
+        dimensionedScalar(dimless, Zero),
+        zeroGradientFvPatchScalarField::typeName
+    ),
+    boundary_(grid, U_),
+    order_(grid),
+    stepCount_(0)
+{
+    // decomposed lagrangian files need the base points of all ranks
+    (void)mesh.tetBasePtIs();
+
+    nodes_.resize(grid.nNodes(), grid.nDim());
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+size_t Foam::mpm::materialPointCloud::pointMemory() const
+{
+    return size_t(points_.size()*points_.bytesPerPoint());
+}
+
+
+size_t Foam::mpm::materialPointCloud::nodeMemory() const
+{
+    return nodes_.memory() + boundary_.memory() + order_.memory();
+}
+
+
+Foam::label Foam::mpm::materialPointCloud::addPoints
+(
+    const UList<point>& position,
+    const labelUList& meshCell,
+    const UList<scalar>& id,
+    const UList<vector>& velocity
+)
+{
+    const label first = points_.size();
+    points_.resize(first + position.size());
+
+    forAll(position, i)
+    {
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            const label axis = grid_.cells().axis(d);
+            points_.column(x_ + d)[first + i] = position[i][axis];
+            points_.column(v_ + d)[first + i] = velocity[i][axis];
+        }
+        points_.column(id_)[first + i] = id[i];
+        points_.cell()[first + i] = grid_.boxCell(meshCell[i]);
+    }
+    return first;
+}
+
+
+void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
+{
+    cost_.start("relocate and sort");
+
+    const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
+
+    struct departure { label point; label rank; };
+    std::vector<departure> departures;
+    bool inactive = false;
+
+    for (const label p : movers_)
+    {
+        bool finite = true;
+        for (label d = 0; d < nDim; ++d)
+        {
+            finite = finite && std::isfinite(x(d)[p]);
+        }
+        // The time step is checked for non-finite values as a whole
+        if (!finite) continue;
+
+        index3 i = boxCoordinate(p);
+        bool inBox = true;
+        for (label d = 0; d < nDim; ++d)
+        {
+            inBox = inBox && i[d] >= 0 && i[d] < grid_.nNodes(d) - 1;
+        }
+        if (!inBox)
+        {
+            point from(Zero);
+            for (label d = 0; d < nDim; ++d) from[cells.axis(d)] = x(d)[p];
+
+            FatalErrorInFunction
+                << "cloud " << name() << ": a point moved across more than "
+                << backgroundGrid::margin << " cells in one time step of "
+                << deltaT << " s, to " << from << '.' << nl
+                << "    The time step is too large or the flow unstable:"
+                << " lower maxCo (or deltaT if adjustTimeStep is no)."
+                << exit(FatalError);
+        }
+
+        const label target = grid_.index(i);
+        const label rank = grid_.cellRank(target);
+
+        if (rank == backgroundGrid::missing)
+        {
+            if (boundary_.beyondOpening(target))
+            {
+                departures.push_back(departure{p, -1});
+            }
+            else
+            {
+                returnFromWall(p);
+                inactive = inactive || !order_.active(points_.cell()[p]);
+            }
+            continue;
+        }
+
+        // Across a cyclic boundary
+        bool wrapped = false;
+        for (label d = 0; d < nDim; ++d)
+        {
+            if (!cells.periodic(d)) continue;
+            const label g = i[d] + grid_.lower(d);
+            const label n = cells.nCells(d);
+            if (g >= 0 && g < n) continue;
+
+            scalar& xd = points_.column(x_ + d)[p];
+            xd += (g < 0 ? 1 : -1)*n*cells.spacing(d);
+            wrapped = true;
+        }
+        if (wrapped)
+        {
+            i = boxCoordinate(p);
+            for (label d = 0; d < nDim; ++d)
+            {
+                // Rounding may land on the far end itself
+                const label g = i[d] + grid_.lower(d);
+                if (cells.periodic(d) && g >= cells.nCells(d))
+                {
+                    points_.column(x_ + d)[p] = cells.origin(d)
+                      + (cells.nCells(d) - wallGap)*cells.spacing(d);
+                    --i[d];
+                }
+            }
+        }
+
+        if (rank == Pstream::myProcNo())
+        {
+            points_.cell()[p] = grid_.index(i);
+            inactive = inactive || !order_.active(points_.cell()[p]);
+        }
+        else
+        {
+            departures.push_back(departure{p, rank});
+        }
+    }
+    movers_.clear();
+
+    // Removal puts the last point into the gap: from the back to the front
+    std::sort
+    (
+        departures.begin(),
+        departures.end(),
+        [](const departure& a, const departure& b) { return a.point > b.point; }
+    );
+
+    const label nColumns = points_.nColumns();
+    List<DynamicList<scalar>> outgoing(Pstream::nProcs());
+    List<scalar> buffer(nColumns);
+
+    for (const departure& d : departures)
+    {
+        if (d.rank < 0)
+        {
+            ++counters_.left;
+            counters_.leftMass += mass()[d.point];
+        }
+        else
+        {
+            points_.pack(d.point, buffer.data());
+            outgoing[d.rank].append(buffer);
+        }
+        points_.remove(d.point);
+    }
+
+    if (Pstream::parRun())
+    {
+        PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
+        forAll(outgoing, rank)
+        {
+            if (outgoing[rank].size())
+            {
+                UOPstream to(rank, buffers);
+                to << outgoing[rank];
+            }
+        }
+        labelList sizes;
+        buffers.finishedSends(sizes);
+        forAll(sizes, rank)
+        {
+            if (!sizes[rank]) continue;
+            UIPstream from(rank, buffers);
+            const List<scalar> incoming(from);
+            for (label k = 0; k < incoming.size(); k += nColumns)
+            {
+                points_.append(incoming.cdata() + k, 0);
+                const label p = points_.size() - 1;
+                points_.cell()[p] = grid_.index(boxCoordinate(p));
+                inactive = inactive || !order_.active(points_.cell()[p]);
+            }
+        }
+    }
+
+    ++stepCount_;
+    const bool sort = stepCount_ % settings_.sortInterval == 0;
+    if (sort || inactive) activate(sort);
+
+    cost_.stop();
+}
+
+
+void Foam::mpm::materialPointCloud::findMaxSpeed()
+{
+    sums_.maxSpeedSqr = 0;
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar sqr = 0;
+        for (label d = 0; d < grid_.nDim(); ++d) sqr += Foam::sqr(v(d)[p]);
+        sums_.maxSpeedSqr = max(sums_.maxSpeedSqr, sqr);
+    }
+}
+
+
+Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
+{
+    if (std::isfinite(sums_.sumSpeedSqr)) return string();
+
+    for (label p = 0; p < size(); ++p)
+    {
+        bool finite = true;
+        point position(Zero);
+        vector velocity(Zero);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            const label axis = grid_.cells().axis(d);
+            position[axis] = x(d)[p];
+            velocity[axis] = v(d)[p];
+            finite = finite && std::isfinite(v(d)[p]);
+        }
+        if (finite) continue;
+
+        OStringStream os;
+        os  << "cloud " << name() << ", point " << label(points_.column(id_)[p])
+            << ", mesh cell " << grid_.meshCell(points_.cell()[p])
+            << ", position " << position << ", velocity " << velocity;
+        return os.str();
+    }
+    return "cloud " + name() + ", sum of squared speeds overflows";
+}
+
+
+void Foam::mpm::materialPointCloud::energy
+(
+    const vector& g,
+    scalar& kinetic,
+    scalar& potential,
+    scalar& elastic
+) const
+{
+    kinetic = 0;
+    potential = 0;
+    elastic = 0;
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar vv = 0, gx = 0;
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            vv += sqr(v(d)[p]);
+            gx += g[grid_.cells().axis(d)]*x(d)[p];
+        }
+        kinetic += 0.5*mass()[p]*vv;
+        potential -= mass()[p]*gx;
+    }
+}
+
+
+Foam::label Foam::mpm::materialPointCloud::globalSize() const
+{
+    return returnReduce(size(), sumOp<label>());
+}
+
+
+Foam::scalar Foam::mpm::materialPointCloud::globalMass() const
+{
+    scalar m = 0;
+    for (label p = 0; p < size(); ++p) m += mass()[p];
+    return returnReduce(m, sumOp<scalar>());
+}
+
+// ************************************************************************* //

@@ -1,0 +1,545 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "FlatOutput.H"
+#include "materialPointSystem.H"
+#include "waterCloud.H"
+#include "dictionaryEntries.H"
+#include "uniformDimensionedFields.H"
+#include "PstreamReduceOps.H"
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::materialPointSystem::readSettings()
+{
+    settings_.strictKeywords =
+        control_.lookupOrDefault<Switch>("strictKeywords", true);
+    settings_.smoothing = control_.lookupOrDefault<Switch>("smoothing", true);
+    settings_.volumeCorrection =
+        control_.lookupOrDefault<Switch>("volumeCorrection", true);
+    settings_.sortInterval = label
+    (
+        readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
+    );
+
+    checkKeywords
+    (
+        control_,
+        {
+            "shapeFunction", "maxCo", "sortInterval", "smoothing",
+            "volumeCorrection", "logInterval", "strictKeywords"
+        },
+        settings_.strictKeywords
+    );
+
+    logInterval_ = label
+    (
+        readBoundedOrDefault(control_, "logInterval", dimless, 10, 1, 1e9, true)
+    );
+
+    const dictionary& coDict =
+        control_.found("maxCo") ? control_ : time_.controlDict();
+    maxCo_ =
+        readBoundedOrDefault(coDict, "maxCo", dimless, 0.5, 0, stableCo);
+    if (maxCo_ > 0.7)
+    {
+        IOWarningInFunction(coDict)
+            << "maxCo " << maxCo_ << " is beyond the range that was found"
+            << " stable for water (0.7)." << endl;
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::readGravity()
+{
+    const uniformDimensionedVectorField g
+    (
+        IOobject
+        (
+            "g",
+            time_.constant(),
+            time_,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+    if (g.dimensions() != dimAcceleration)
+    {
+        FatalErrorInFunction
+            << "file " << g.objectPath() << ": keyword dimensions is "
+            << g.dimensions() << "; it must be " << dimAcceleration
+            << exit(FatalError);
+    }
+    g_ = g.value();
+
+    if (grid_.nDim() == 2)
+    {
+        const label e = grid_.cells().axis(2);
+        if (mag(g_[e]) > SMALL)
+        {
+            FatalErrorInFunction
+                << "file " << g.objectPath() << ": keyword value is " << g_
+                << ", but the case is two-dimensional and empty in direction "
+                << vector::componentNames[e] << ", where gravity must be zero."
+                << exit(FatalError);
+        }
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::makeClouds()
+{
+    const wordList names(properties_.get<wordList>("clouds"));
+
+    if (names.empty())
+    {
+        FatalIOErrorInFunction(properties_)
+            << "keyword clouds is empty." << nl
+            << "    Allowed: (water)" << exit(FatalIOError);
+    }
+
+    wordList known(names);
+    known.append("clouds");
+    checkKeywords(properties_, known, settings_.strictKeywords);
+
+    clouds_.setSize(names.size());
+    forAll(names, i)
+    {
+        if (names[i] != "water")
+        {
+            FatalIOErrorInFunction(properties_)
+                << "keyword clouds: unknown cloud " << names[i] << nl
+                << "    Valid names: water" << exit(FatalIOError);
+        }
+        water_ = new waterCloud
+        (
+            names[i],
+            mesh_,
+            grid_,
+            properties_.subDict(names[i]),
+            settings_,
+            cost_,
+            g_
+        );
+        clouds_.set(i, water_);
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::findFieldControls()
+{
+    // Function objects that work on the points themselves
+    const wordHashSet onPoints
+    ({
+        "materialPointEnergy", "frontPosition", "waveGauge", "massBalance",
+        "scourProfile", "materialPointHDF5", "vtkCloud", "dataCloud",
+        "cloudInfo", "timeActivatedFileUpdate", "runTimeControl", "abort"
+    });
+
+    // ... and those that look at fields only when they write
+    const wordHashSet onWrite({"probes", "patchProbes", "sets", "surfaces"});
+
+    const dictionary* functions =
+        time_.controlDict().findDict("functions");
+    if (!functions) return;
+
+    for (const entry& e : *functions)
+    {
+        if (!e.isDict()) continue;
+        const dictionary& dict = e.dict();
+        const word type(dict.lookupOrDefault<word>("type", word::null));
+        if (onPoints.found(type)) continue;
+
+        fieldControls_.append(new timeControl(time_, dict, "write"));
+        if (!onWrite.found(type))
+        {
+            fieldControls_.append(new timeControl(time_, dict, "execute"));
+        }
+    }
+}
+
+
+Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT(word& limiter)
+{
+    const scalar h = grid_.cells().minSpacing();
+    scalar limit = GREAT;
+    limiter = "none";
+    flowSpeed_ = 0;
+
+    forAll(clouds_, i)
+    {
+        const materialPointCloud& cloud = clouds_[i];
+        scalar wave = cloud.maxWaveSpeed();
+        scalar speed = cloud.maxSpeed();
+        reduce(wave, maxOp<scalar>());
+        reduce(speed, maxOp<scalar>());
+
+        signalSpeed_[i] = wave + speed;
+        flowSpeed_ = max(flowSpeed_, speed);
+
+        if (h/signalSpeed_[i] < limit)
+        {
+            limit = h/signalSpeed_[i];
+            limiter = speed > wave ? "advection" : cloud.waveName();
+        }
+
+        // Explicit diffusion of momentum; maxCo applies to waves only
+        const scalar nu = cloud.viscosity();
+        if (nu > 0)
+        {
+            const scalar diffusion = sqr(h)/(2*grid_.nDim()*nu)/maxCo_;
+            if (diffusion < limit)
+            {
+                limit = diffusion;
+                limiter = "viscosity";
+            }
+        }
+    }
+    return limit;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
+:
+    mesh_(mesh),
+    time_(mesh.time()),
+    properties_
+    (
+        IOobject
+        (
+            "materialPointProperties",
+            time_.constant(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE
+        )
+    ),
+    control_(mesh.solutionDict().subOrEmptyDict("MPM")),
+    grid_(mesh, control_),
+    water_(nullptr),
+    limiter_("none"),
+    flowSpeed_(0),
+    firstStep_(0),
+    pointSteps_(0),
+    maxPoints_(0),
+    logThisStep_(true),
+    fieldsCurrent_(false)
+{
+    readSettings();
+    readGravity();
+    makeClouds();
+    findFieldControls();
+    signalSpeed_.setSize(clouds_.size(), 0);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::mpm::waterCloud& Foam::mpm::materialPointSystem::water(const word& user)
+{
+    if (!water_)
+    {
+        FatalIOErrorInFunction(properties_)
+            << user << " needs the cloud water." << nl
+            << "    keyword clouds: add water" << exit(FatalIOError);
+    }
+    return *water_;
+}
+
+
+Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
+(
+    const word& name
+)
+{
+    DynamicList<word> names;
+    for (materialPointCloud& c : clouds_)
+    {
+        if (c.name() == name) return c;
+        names.append(c.name());
+    }
+    FatalIOErrorInFunction(properties_)
+        << "there is no cloud " << name << nl << "    Clouds of this case: "
+        << flatOutput(names) << exit(FatalIOError);
+    return clouds_[0];
+}
+
+
+void Foam::mpm::materialPointSystem::reportEffects() const
+{
+    auto row = [](const string& a, const string& b, const string& c)
+    {
+        std::ostringstream os;
+        os << "    " << std::left << std::setw(26) << a
+           << std::setw(5) << b << c;
+        Info<< os.str().c_str() << nl;
+    };
+
+    const lattice& cells = grid_.cells();
+    OStringStream spacing;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        spacing << (d ? " x " : "") << cells.spacing(d);
+    }
+
+    Info<< nl << "Background grid" << nl
+        << "    " << returnReduce(mesh_.nCells(), sumOp<label>())
+        << " cells of " << spacing.str().c_str() << " m, " << cells.nDim()
+        << "D, " << grid_.shapeFunction() << nl << nl
+        << "Effects" << nl;
+
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        DynamicList<FixedList<string, 3>> table;
+        cloud.effects(table);
+        for (const auto& effect : table) row(effect[0], effect[1], effect[2]);
+    }
+    row("coupling", "off", "one cloud");
+    row
+    (
+        "time step",
+        time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
+      ? "auto" : "set",
+        "maxCo " + Foam::name(maxCo_)
+    );
+
+    Info<< nl << "Memory" << nl;
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        const scalar n = cloud.globalSize();
+        scalar points = cloud.pointMemory(), nodes = cloud.nodeMemory();
+        reduce(points, sumOp<scalar>());
+        reduce(nodes, sumOp<scalar>());
+        Info<< "    " << cloud.name() << ": " << points/n
+            << " bytes per point, " << nodes/1e6 << " MB on nodes, mass "
+            << cloud.globalMass() << " kg" << nl;
+    }
+    Info<< endl;
+}
+
+
+void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
+{
+    const scalar limit = limitDeltaT(limiter_);
+
+    if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
+    {
+        const scalar maxDeltaT =
+            runTime.controlDict().lookupOrDefault<scalar>("maxDeltaT", GREAT);
+        scalar deltaT = maxCo_*limit;
+        if (maxDeltaT < deltaT)
+        {
+            deltaT = maxDeltaT;
+            limiter_ = "maxDeltaT";
+        }
+        // Single precision: the distance to the next write time differs in
+        // the last digits after a restart, the time step then does not
+        runTime.setDeltaT(scalar(float(deltaT)));
+        runTime.setDeltaT(scalar(float(runTime.deltaTValue())), false);
+    }
+    else
+    {
+        limiter_ = "deltaT";
+        const scalar Co = runTime.deltaTValue()/limit;
+        if (Co > stableCo)
+        {
+            FatalIOErrorInFunction(runTime.controlDict())
+                << "keyword deltaT is " << runTime.deltaTValue()
+                << " s: the Courant number of sound plus flow is " << Co
+                << ", beyond the limit of stability." << nl
+                << "    Allowed: deltaT <= " << maxCo_*limit
+                << " s (maxCo " << maxCo_ << "), or adjustTimeStep yes"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::particlesToGrid()
+{
+    for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
+    fieldsCurrent_ = false;
+}
+
+
+void Foam::mpm::materialPointSystem::updateStress()
+{
+    const scalar deltaT = time_.deltaTValue();
+    for (materialPointCloud& cloud : clouds_) cloud.updateStress(deltaT);
+}
+
+
+void Foam::mpm::materialPointSystem::updateNodes()
+{
+    const scalar deltaT = time_.deltaTValue();
+    for (materialPointCloud& cloud : clouds_) cloud.updateNodes(deltaT);
+}
+
+
+void Foam::mpm::materialPointSystem::gridToParticles()
+{
+    const scalar deltaT = time_.deltaTValue();
+    for (materialPointCloud& cloud : clouds_)
+    {
+        pointSteps_ += cloud.size();
+        cloud.gridToParticles(deltaT);
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::relocate()
+{
+    const scalar deltaT = time_.deltaTValue();
+    for (materialPointCloud& cloud : clouds_) cloud.relocate(deltaT);
+}
+
+
+void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
+{
+    string found;
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        if (found.empty()) found = cloud.firstNonFinite();
+    }
+
+    if (returnReduce(!found.empty(), orOp<bool>()))
+    {
+        // For inspection; without its state file no run restarts from it
+        runTime.writeNow();
+
+        List<string> all(Pstream::nProcs());
+        all[Pstream::myProcNo()] = found;
+        Pstream::gatherList(all);
+        if (Pstream::master())
+        {
+            for (const string& text : all)
+            {
+                if (found.empty()) found = text;
+            }
+        }
+        FatalErrorInFunction
+            << "non-finite value at time " << runTime.timeName() << " (step "
+            << clouds_[0].stepCount() << "): " << found.c_str() << nl
+            << "    Time step " << runTime.deltaTValue() << " s, limiter: "
+            << limiter_ << nl << "    The state was written to "
+            << runTime.timePath() << " for inspection." << nl
+            << "    Restart from the write time before it, with a smaller"
+            << " maxCo." << exit(FatalError);
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::updateMeshFields()
+{
+    bool due = time_.writeTime();
+    for (timeControl& control : fieldControls_)
+    {
+        due = control.execute() || due;
+    }
+    if (due && !fieldsCurrent_)
+    {
+        cost_.start("fields on the mesh");
+        for (materialPointCloud& cloud : clouds_) cloud.updateMeshFields();
+        cost_.stop();
+        fieldsCurrent_ = true;
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::log(const Time& runTime)
+{
+    const label step = clouds_[0].stepCount();
+    logThisStep_ = step % logInterval_ == 0 || runTime.writeTime();
+    if (!logThisStep_) return;
+
+    const scalar h = grid_.cells().minSpacing();
+    const scalar deltaT = runTime.deltaTValue();
+
+    Info<< "Time = " << runTime.timeName() << nl << nl
+        << "Courant Number mean: " << flowSpeed_*deltaT/h
+        << " max: " << max(signalSpeed_)*deltaT/h << nl
+        << "deltaT = " << deltaT << " limiter: " << limiter_
+        << " step: " << step << nl;
+
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        scalar speed = cloud.maxSpeed();
+        reduce(speed, maxOp<scalar>());
+        const label contacts =
+            returnReduce(cloud.counts().wallContacts, sumOp<label>());
+        const label left = returnReduce(cloud.counts().left, sumOp<label>());
+
+        Info<< cloud.name() << ": points " << cloud.globalSize()
+            << ", max speed " << speed << " m/s";
+        if (left) Info<< ", left through openings " << left;
+        if (contacts) Info<< ", put back from walls " << contacts;
+        Info<< nl;
+    }
+
+    if (water_)
+    {
+        const scalar variation =
+            returnReduce(water_->densityVariation(), maxOp<scalar>());
+        if (variation > 0.03)
+        {
+            Info<< "--> water: the density varies by " << 100*variation
+                << " % (99th percentile); raise soundSpeed above "
+                << water_->fluid().soundSpeed() << " m/s for less" << nl;
+        }
+    }
+    Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
+        << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl
+        << endl;
+}
+
+
+void Foam::mpm::materialPointSystem::reportCosts() const
+{
+    const scalar nRanks = Pstream::nProcs();
+    const scalar total = returnReduce(cost_.total(), sumOp<scalar>())/nRanks;
+    const scalar pointSteps = returnReduce(pointSteps_, sumOp<scalar>());
+    const label steps = clouds_[0].stepCount() - firstStep_;
+
+    if (!steps || pointSteps == 0) return;
+
+    auto row = [&](const char* name, const scalar seconds)
+    {
+        std::ostringstream os;
+        os << "    " << std::left << std::setw(28) << name << std::right
+           << std::fixed << std::setprecision(2) << std::setw(10) << seconds
+           << std::setw(8) << std::setprecision(1) << 100*seconds/total
+           << std::setw(10) << 1e9*seconds*nRanks/pointSteps;
+        Info<< os.str().c_str() << nl;
+    };
+
+    Info<< "Cost" << nl
+        << "    part                          seconds   % run   "
+        << "ns per point and step" << nl;
+
+    // All ranks have met the same parts in the same order
+    scalar sum = 0;
+    for (size_t i = 0; i < cost_.size(); ++i)
+    {
+        const scalar seconds =
+            returnReduce(cost_.seconds(i), sumOp<scalar>())/nRanks;
+        sum += seconds;
+        row(cost_.name(i), seconds);
+    }
+    row("other", total - sum);
+    row("total", total);
+
+    Info<< nl << "Steps: " << steps
+        << "  points: " << label(std::round(pointSteps/steps))
+        << "  ns per point and step: " << 1e9*total*nRanks/pointSteps
+        << "  limiter: " << limiter_ << nl << endl;
+}
+
+// ************************************************************************* //

@@ -1,0 +1,78 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "pointStorage.H"
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::mpm::pointStorage::add
+(
+    const word& name,
+    const valueRank rank
+)
+{
+    const label n =
+        rank == scalarValue ? 1 : rank == vectorValue ? nDim_ : nDim_*nDim_;
+    const label first = columns_.size();
+
+    fields_.push_back(field{name, rank, first, n});
+    for (label i = 0; i < n; ++i)
+    {
+        columns_.emplace_back(size_, scalar(0));
+    }
+    return first;
+}
+
+
+void Foam::mpm::pointStorage::resize(const label n)
+{
+    for (auto& column : columns_) column.resize(n, 0);
+    cell_.resize(n, -1);
+    size_ = n;
+}
+
+
+void Foam::mpm::pointStorage::pack(const label point, scalar* buffer) const
+{
+    for (const auto& column : columns_) *buffer++ = column[point];
+}
+
+
+void Foam::mpm::pointStorage::append(const scalar* buffer, const label cell)
+{
+    for (auto& column : columns_) column.push_back(*buffer++);
+    cell_.push_back(cell);
+    ++size_;
+}
+
+
+void Foam::mpm::pointStorage::remove(const label point)
+{
+    for (auto& column : columns_)
+    {
+        column[point] = column.back();
+        column.pop_back();
+    }
+    cell_[point] = cell_.back();
+    cell_.pop_back();
+    --size_;
+}
+
+
+void Foam::mpm::pointStorage::reorder(const labelUList& order)
+{
+    scratch_.resize(size_);
+    for (auto& column : columns_)
+    {
+        for (label i = 0; i < size_; ++i) scratch_[i] = column[order[i]];
+        column.swap(scratch_);
+    }
+
+    cellScratch_.resize(size_);
+    for (label i = 0; i < size_; ++i) cellScratch_[i] = cell_[order[i]];
+    cell_.swap(cellScratch_);
+}
+
+// ************************************************************************* //

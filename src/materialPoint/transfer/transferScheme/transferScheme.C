@@ -1,0 +1,45 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "FlatOutput.H"
+#include "transferScheme.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(transferScheme, 0);
+    defineRunTimeSelectionTable(transferScheme, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
+(
+    const dictionary& cloudDict,
+    const word& defaultScheme,
+    const scalar defaultRate
+)
+{
+    const word name
+    (
+        cloudDict.lookupOrDefault<word>("transfer", defaultScheme)
+    );
+
+    auto found = dictionaryConstructorTablePtr_->cfind(name);
+
+    if (!found.found())
+    {
+        FatalIOErrorInFunction(cloudDict)
+            << "keyword transfer: unknown transfer scheme " << name << nl
+            << "    Valid names: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+    return found()(cloudDict, defaultRate);
+}
+
+// ************************************************************************* //

@@ -1,0 +1,19 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+
+Description
+    Water kernels with the shape function quadraticBSpline; a file of its own so that
+    the variants compile side by side.
+\*---------------------------------------------------------------------------*/
+
+#include "waterKernelsTemplates.C"
+
+template Foam::autoPtr<Foam::mpm::waterKernels>
+Foam::mpm::newWaterKernels<Foam::mpm::quadraticBSpline>
+(
+    waterCloud&,
+    const waterKernels::variant&
+);
+
+// ************************************************************************* //
