@@ -45,13 +45,15 @@ class Run:
     settings   file -> entry -> value, set by foamDictionary; an entry of a
                sub-dictionary is written sub/entry
     files      file -> text, written as it is
-    about      what the evaluation wants to know of the run"""
+    about      what the evaluation wants to know of the run
+    optional   runs only when it is named"""
     name: str
     templates: list
     commands: list
     settings: dict = field(default_factory=dict)
     files: dict = field(default_factory=dict)
     about: dict = field(default_factory=dict)
+    optional: bool = False
     path: Path = None
 
     @property
@@ -186,8 +188,15 @@ def main(here, runs, evaluate, description=None):
     here = Path(here)
     for run in runs:
         run.path = here/"runs"/run.name
-    chosen = [run for run in runs if not arguments.names or any(
-        fnmatch.fnmatch(run.name, name) for name in arguments.names)]
+
+    if arguments.names:
+        chosen = [run for run in runs if any(
+            fnmatch.fnmatch(run.name, name) for name in arguments.names)]
+        if not chosen:
+            parser.error(f"no run is named {' '.join(arguments.names)}")
+    else:
+        chosen = [run for run in runs
+                  if not run.optional or arguments.list]
 
     if arguments.list:
         for run in chosen:
