@@ -32,6 +32,8 @@ def fromLog(path):
         "cpuTime": log.cpuTime,
         "nsPerPointStep": log.nsPerPointStep,
         "dtLimiter": log.dtLimiter,
+        "pointsLeft": log.left,
+        "wallContacts": log.wallContacts,
     }
 
 

@@ -21,6 +21,8 @@ class RunLog:
     deltaTMax: float = None
     deltaTSum: float = 0.0
     courantMax: float = None
+    left: int = 0                   # points that left through openings
+    wallContacts: int = 0           # points that were put back from walls
     limiters: Counter = field(default_factory=Counter)
 
     @property
@@ -49,14 +51,15 @@ def _readLine(log, line):
         log.stepCount += 1
         return
 
-    found = re.match(r"\s*deltaT = " + _NUMBER + r"(?:\s+limiter: *(.+))?",
-                     line)
+    found = re.match(
+        rf"\s*deltaT = {_NUMBER}(?:\s+limiter: *(.+?))?(?:\s+step: \d+)?\s*$",
+        line)
     if found:
         deltaT = float(found[1])
         log.deltaTMin = min(deltaT, log.deltaTMin or deltaT)
         log.deltaTMax = max(deltaT, log.deltaTMax or deltaT)
         if found[2]:
-            log.limiters[found[2].strip()] += 1
+            log.limiters[found[2]] += 1
             log.deltaTSum += deltaT
         return
 
@@ -71,9 +74,17 @@ def _readLine(log, line):
         log.courantMax = max(float(found[1]), log.courantMax or 0)
         return
 
+    found = re.search(r"left through openings (\d+)", line)
+    if found:
+        log.left = int(found[1])
+    found = re.search(r"put back from walls (\d+)", line)
+    if found:
+        log.wallContacts = int(found[1])
+        return
+
     found = re.search(
-        rf"Steps: *(\d+)\s+points: *(\d+)\s+ns per point and step: *{_NUMBER}",
-        line)
+        rf"Steps: *(\d+)\s+points: *(\d+)\s+"
+        rf"ns per point and step: *{_NUMBER}", line)
     if found:
         # With logInterval the log shows fewer "Time =" than there were steps
         log.stepCount = int(found[1])
