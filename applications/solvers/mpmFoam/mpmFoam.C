@@ -55,7 +55,17 @@ int main(int argc, char *argv[])
     mpm::materialPointSystem::setIncompleteTimesAside(args);
 
     #include "createTime.H"
-    #include "createMesh.H"
+
+    fvMesh mesh
+    (
+        IOobject
+        (
+            fvMesh::defaultRegion,
+            runTime.timeName(),
+            runTime,
+            IOobject::MUST_READ
+        )
+    );
 
     mpm::materialPointSystem points(mesh);
     points.read();

@@ -201,6 +201,13 @@ Foam::label Foam::mpm::materialPointCloud::addPoints
 }
 
 
+void Foam::mpm::materialPointCloud::finishPoints()
+{
+    findMaxSpeed();
+    activate(true);
+}
+
+
 void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 {
     cost_.start("relocate and sort");

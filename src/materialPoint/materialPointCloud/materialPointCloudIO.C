@@ -388,4 +388,11 @@ bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
     return ok;
 }
 
+
+bool Foam::mpm::materialPointCloud::writeMeshFields() const
+{
+    const bool ok = alpha_.write();
+    return U_.write() && ok;
+}
+
 // ************************************************************************* //

@@ -142,6 +142,23 @@ void Foam::mpm::materialPointSystem::read()
 }
 
 
+void Foam::mpm::materialPointSystem::write()
+{
+    for (materialPointCloud& cloud : clouds_)
+    {
+        cloud.updateMeshFields();
+        if (!cloud.regIOobject::write() || !cloud.writeMeshFields())
+        {
+            FatalErrorInFunction
+                << "cannot write cloud " << cloud.name() << " to "
+                << time_.timePath() << "; is the disk full?"
+                << exit(FatalError);
+        }
+    }
+    writeState();
+}
+
+
 void Foam::mpm::materialPointSystem::writeState() const
 {
     IOdictionary state
@@ -157,6 +174,9 @@ void Foam::mpm::materialPointSystem::writeState() const
             false
         )
     );
+    // Enough digits to read the same number again
+    const unsigned precision = IOstream::defaultPrecision(17);
+
     for (const materialPointCloud& cloud : clouds_)
     {
         dictionary dict;
@@ -167,8 +187,6 @@ void Foam::mpm::materialPointSystem::writeState() const
     // Last of all: its presence says that the time directory is whole
     state.set("complete", true);
 
-    // Enough digits to read the same number again
-    const unsigned precision = IOstream::defaultPrecision(17);
     const bool ok = state.regIOobject::write();
     IOstream::defaultPrecision(precision);
 

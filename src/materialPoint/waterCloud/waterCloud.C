@@ -50,6 +50,24 @@ void Foam::mpm::waterCloud::select()
 }
 
 
+void Foam::mpm::waterCloud::findMinVolumeRatio()
+{
+    minJ_ = 1;
+    for (label p = 0; p < size(); ++p)
+    {
+        if (!(J()[p] > 0))
+        {
+            FatalErrorInFunction
+                << "cloud " << name() << ": point " << p << " in "
+                << time().timePath()/cloud::prefix/name()
+                << " has the volume ratio J = " << J()[p]
+                << "; it must be positive." << exit(FatalError);
+        }
+        minJ_ = min(minJ_, J()[p]);
+    }
+}
+
+
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
 void Foam::mpm::waterCloud::derivedFields
@@ -208,6 +226,13 @@ void Foam::mpm::waterCloud::setState
 }
 
 
+void Foam::mpm::waterCloud::finishPoints()
+{
+    materialPointCloud::finishPoints();
+    findMinVolumeRatio();
+}
+
+
 void Foam::mpm::waterCloud::particlesToGrid()
 {
     kernels_->particlesToGrid();
@@ -266,23 +291,17 @@ void Foam::mpm::waterCloud::updateMeshFields()
 }
 
 
+bool Foam::mpm::waterCloud::writeMeshFields() const
+{
+    const bool ok = p_.write();
+    return materialPointCloud::writeMeshFields() && ok;
+}
+
+
 void Foam::mpm::waterCloud::readPoints()
 {
     materialPointCloud::readPoints();
-
-    minJ_ = 1;
-    for (label p = 0; p < size(); ++p)
-    {
-        if (!(J()[p] > 0))
-        {
-            FatalErrorInFunction
-                << "cloud " << name() << ": point " << p << " in "
-                << time().timePath()/cloud::prefix/name()
-                << " has the volume ratio J = " << J()[p]
-                << "; it must be positive." << exit(FatalError);
-        }
-        minJ_ = min(minJ_, J()[p]);
-    }
+    findMinVolumeRatio();
 }
 
 
