@@ -1,0 +1,291 @@
+"""Restart: two runs in a row are one run, and nothing that was written whole
+is lost by the end of a run, whatever its cause."""
+
+import os
+import shutil
+import signal
+import time
+
+import pytest
+
+from caseBuilder import damBreak
+
+CLOUD = "lagrangian/water"
+
+
+def body(path):
+    """What follows the header, which names the time directory"""
+    data = path.read_bytes()
+    return data[data.index(b"}", data.index(b"FoamFile")):]
+
+
+def differing(first, second, step):
+    """Files of the cloud that are not the same bytes in two cases"""
+    paths = [c.path/c.timesByStep()[step]/CLOUD for c in (first, second)]
+    names = [{p.name for p in path.iterdir()} for path in paths]
+    assert names[0] == names[1] and "x" in names[0]
+    return sorted(n for n in names[0]
+                  if body(paths[0]/n) != body(paths[1]/n))
+
+
+def clone(case, path):
+    shutil.copytree(case.path, path)
+    return type(case)(path, case.setup)
+
+
+@pytest.mark.parametrize("control", ["timeStep", "adjustableRunTime"])
+@pytest.mark.parametrize("transfer", ["APIC", "FLIP", "XPIC"])
+@pytest.mark.parametrize("dim", [2, 3])
+def testTwoRunsAreOne(tmp_path, figures, dim, transfer, control):
+    setup = damBreak(dim, points=3 if dim == 2 else 2,
+                     water={"transfer": transfer})
+    if control == "timeStep":
+        setup.steps(45)
+    else:
+        setup.until(0.03)
+    split = setup.write(tmp_path/"split").prepare()
+    whole = clone(split, tmp_path/"whole")
+
+    split.solve()
+    middle = max(split.timesByStep())
+    if control == "adjustableRunTime":
+        split.change(control={"endTime": 0.06})
+        whole.change(control={"endTime": 0.06})
+    else:
+        # Writes at twice the step, too, and ends later
+        whole.change(control={"stopAt": "endTime", "endTime": 0.08})
+    split.solve()
+    whole.solve()
+    end = max(split.timesByStep())
+
+    figures.show("steps", f"{middle} and {end}")
+    figures.equal("files that differ at N", differing(split, whole, middle), [])
+    figures.equal("files that differ at 2N", differing(split, whole, end), [])
+    names = [c.timesByStep()[end] for c in (split, whole)]
+    values = [c.timeValue(name) for c, name in zip((split, whole), names)]
+    figures.atMost("relative difference of the time at 2N",
+                   abs(values[0]/values[1] - 1), 1e-12)
+    states = [c.state(name) for c, name in zip((split, whole), names)]
+    for key in ["stepCount", "left", "leftMass", "soundSpeed"]:
+        figures.equal(key, states[0][key], states[1][key])
+    for key in ["stressWork", "correctionWork"]:
+        scale = max(abs(states[1]["stressWork"]), 1e-300)
+        figures.atMost(f"{key}: relative difference",
+                       abs(states[0][key] - states[1][key])/scale, 1e-9)
+
+
+def testStateIsExact(tmp_path, figures):
+    """What is not a lagrangian field comes back bit for bit, too: writing
+    right after reading changes nothing"""
+    setup = damBreak().steps(20)
+    case = setup.write(tmp_path/"case").prepare()
+    case.solve()
+    first = case.state()
+    for key in ["stressWork", "correctionWork", "soundSpeed"]:
+        digits = f"{first[key]:.17g}"
+        figures.show(key, digits)
+        figures.atLeast(f"{key}: digits written",
+                        len(digits.split("e")[0].strip("-0.").replace(
+                            ".", "")), 15)
+
+
+def longRun():
+    """More steps than any test waits for, a time every 25 steps"""
+    return damBreak(h=0.01, points=4).endless(25)
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    """The run that is not disturbed: 300 steps"""
+    case = longRun().write(tmp_path_factory.mktemp("reference")/"case")
+    case.prepare()
+    case.change(control={"stopAt": "endTime", "endTime": 0.1})
+    case.solve()
+    return case
+
+
+def anew(reference, path):
+    """A run from the same start that does not end by itself"""
+    case = clone(reference, path)
+    for t in reference.times[1:]:
+        shutil.rmtree(case.path/t)
+    case.setup = longRun()
+    case.rewrite()
+    return case
+
+
+def continued(case, reference, figures):
+    """Goes on to the end of the reference run; all times that both wrote are
+    the same"""
+    case.change(control={"stopAt": "endTime", "endTime": 0.1})
+    case.solve()
+    common = sorted(set(case.timesByStep()) & set(reference.timesByStep()))
+    figures.show("times compared", len(common))
+    figures.equal("steps with files that differ",
+                  [k for k in common if differing(case, reference, k)], [])
+    figures.equal("last step compared", common[-1],
+                  max(reference.timesByStep()))
+
+
+def testTerminate(tmp_path, figures, reference):
+    case = anew(reference, tmp_path/"case")
+    process = case.start()
+    case.waitForTime(process, 0.02)
+    process.send_signal(signal.SIGTERM)
+    status = case.waitForEnd(process)
+    last = case.times[-1]
+    text = (case.path/"log.mpmFoam").read_text()
+    figures.equal("exit status after SIGTERM", status, 0)
+    figures.holds("log names SIGTERM", "SIGTERM" in text)
+    figures.holds("log has End", case.log.finished)
+    figures.equal("complete state at the last time",
+                  "complete" in (case.path/last/"uniform"/"materialPoints")
+                  .read_text(), True)
+    continued(case, reference, figures)
+
+
+def testTerminateParallel(tmp_path, figures, reference):
+    """SIGTERM to mpirun reaches the ranks; they end with a restart"""
+    case = anew(reference, tmp_path/"case")
+    case.decompose(2)
+    process = case.start("mpmFoam", ranks=2)
+    case.waitForTime(process, 0.02)
+    # As a batch system does it: each process gets the signal
+    for rank in children(process.pid):
+        os.kill(rank, signal.SIGTERM)
+    status = case.waitForEnd(process)
+    last = case.times[-1]
+    figures.equal("exit status after SIGTERM", status, 0)
+    figures.holds("log has End", case.log.finished)
+    points = case.points(last)
+    figures.equal("points at the last time", len(points.id),
+                  len(reference.points("0").id))
+    case.change(control={"stopAt": "nextWrite"})
+    case.solve(ranks=2)
+    figures.holds("run goes on after it", float(case.times[-1]) > float(last),
+                  f"{last} -> {case.times[-1]} s")
+
+
+def children(pid):
+    """Processes that mpirun started"""
+    path = f"/proc/{pid}/task/{pid}/children"
+    return [int(p) for p in open(path).read().split()]
+
+
+@pytest.mark.parametrize("how", ["writeNow", "noWriteNow", "nextWrite"])
+def testStopAt(tmp_path, figures, reference, how):
+    """controlDict edited while it runs"""
+    case = anew(reference, tmp_path/"case")
+    process = case.start()
+    case.waitForTime(process, 0.02)
+    case.change(control={"stopAt": how})
+    # OpenFOAM reads the file again if it is 10 s newer than before
+    late = time.time() + 60
+    os.utime(case.path/"system"/"controlDict", (late, late))
+    status = case.waitForEnd(process)
+    last = case.times[-1]
+    figures.equal("exit status", status, 0)
+    figures.holds("log has End", case.log.finished)
+    continued(case, reference, figures)
+
+
+def testKill(tmp_path, figures, reference):
+    """kill -9 loses nothing that was written before"""
+    case = anew(reference, tmp_path/"case")
+    process = case.start()
+    case.waitForTime(process, 0.03)
+    process.kill()
+    process.wait()
+    # The last one may be half-written
+    steps = sorted(case.timesByStep())[1:-1]
+    figures.atLeast("times written before the kill", len(steps), 2)
+    figures.equal("of them, with files that differ",
+                  [k for k in steps if differing(case, reference, k)], [])
+    continued(case, reference, figures)
+
+
+def deleteState(path):
+    (path/"uniform"/"materialPoints").unlink()
+
+
+def emptyState(path):
+    (path/"uniform"/"materialPoints").write_bytes(b"")
+
+
+def cutState(path):
+    state = path/"uniform"/"materialPoints"
+    text = state.read_bytes()
+    state.write_bytes(text[:text.index(b"stressWork")])
+
+
+def cutField(name):
+    def cut(path):
+        file = path/CLOUD/name
+        file.write_bytes(file.read_bytes()[:-2000])
+    cut.__name__ = f"cut_{name}"
+    return cut
+
+
+def deleteField(name):
+    def delete(path):
+        (path/CLOUD/name).unlink()
+    delete.__name__ = f"delete_{name}"
+    return delete
+
+
+@pytest.mark.parametrize("damage", [
+    deleteState, emptyState, cutState, cutField("x"), cutField("U"),
+    cutField("J"), cutField("velocityGradient"), deleteField("mass")],
+    ids=lambda f: f.__name__)
+def testHalfWritten(tmp_path, figures, reference, damage):
+    """A time directory that is not whole is named, set aside and skipped"""
+    case = clone(reference, tmp_path/"case")
+    for t in reference.times[4:]:
+        shutil.rmtree(case.path/t)
+    whole, broken = case.times[-2:]
+    damage(case.path/broken)
+
+    text = case.solve(check=False).text
+    figures.holds("log names the time directory",
+                  f"Time directory {broken} is incomplete" in text)
+    figures.holds("renamed",
+                  (case.path/f"{broken}.incomplete").is_dir())
+    figures.equal("runs to its end", case.log.finished, True)
+    if case.log.finished:
+        steps = sorted(reference.timesByStep())
+        figures.equal("steps", sorted(case.timesByStep()), steps)
+        figures.equal("steps with files that differ", [
+            k for k in steps if differing(case, reference, k)], [])
+
+
+@pytest.mark.parametrize("damage", [deleteState, cutField("x")],
+                         ids=lambda f: f.__name__)
+def testHalfWrittenOnOneRank(tmp_path, figures, reference, damage):
+    """The same for one of two ranks: both go back to the last whole time"""
+    case = clone(reference, tmp_path/"case")
+    for t in reference.times[1:]:
+        shutil.rmtree(case.path/t)
+    case.decompose(2, n=(1, 2, 1))
+    case.change(control={"endTime": 0.03})
+    case.solve(ranks=2)
+    broken = case.times[-1]
+    damage(case.path/"processor1"/broken)
+
+    text = case.solve(ranks=2, check=False).text
+    figures.holds("log names the time directory",
+                  f"Time directory {broken} is incomplete" in text)
+    figures.holds("renamed on both ranks", all(
+        (case.path/f"processor{i}"/f"{broken}.incomplete").is_dir()
+        for i in range(2)))
+    figures.equal("runs to its end", case.log.finished, True)
+
+
+def testNoWholeTime(tmp_path, figures):
+    """Where no time is whole there is nothing to go back to: a clear end"""
+    case = damBreak().steps(10).write(tmp_path/"case").prepare()
+    deleteState(case.path/"0")
+    result = case.solve(check=False)
+    figures.holds("status is not 0", result.status != 0, result.status)
+    figures.holds("message says what to do",
+                  "Run setMaterialPoints" in result.text)
+    figures.holds("0 is left where it is", (case.path/"0").is_dir())

@@ -1,0 +1,108 @@
+"""What all tests share: the environment, and the figures they report."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT/"etc"/"python"))
+
+_lines = []
+
+
+def pytest_configure(config):
+    """Works without etc/bashrc sourced, too"""
+    if "MPMFOAM_DIR" in os.environ:
+        return
+    result = subprocess.run(
+        ["bash", "-c", f". '{ROOT}/etc/bashrc' && env -0"],
+        capture_output=True, text=True)
+    if result.returncode:
+        pytest.exit(result.stderr, returncode=2)
+    for line in result.stdout.split("\0"):
+        name, found, value = line.partition("=")
+        if found:
+            os.environ[name] = value
+
+
+class Figures:
+    """Compares figures with their bounds. Each is printed, and listed again
+    at the end of the session, whether it holds or not; a test that calls
+    several of them is told of all that do not hold."""
+
+    def __init__(self, test):
+        self.test = test
+        self.failed = []
+        self.compared = 0
+
+    def atMost(self, name, value, bound):
+        self._add(name, value, "<=", bound, value <= bound)
+
+    def atLeast(self, name, value, bound):
+        self._add(name, value, ">=", bound, value >= bound)
+
+    def equal(self, name, value, expected):
+        self._add(name, value, "==", expected, value == expected)
+
+    def show(self, name, value):
+        """A figure without a bound"""
+        self._line(f"{name} {_text(value)}")
+
+    def holds(self, name, condition, detail=""):
+        self._add(name, detail or condition, "is", "true" if not detail
+                  else "as expected", bool(condition))
+
+    def _add(self, name, value, relation, bound, good):
+        # Comparison with nan is false, and fails
+        good = bool(good)
+        self.compared += 1
+        self._line(f"{name} {_text(value)} {relation} {_text(bound)}"
+                   + ("" if good else "   FAILED"))
+        if not good:
+            self.failed.append(f"{name}: {_text(value)}, not {relation} "
+                               f"{_text(bound)}")
+
+    def _line(self, text):
+        print(text)
+        _lines.append((self.test, text))
+
+
+def _text(value):
+    if isinstance(value, float) or hasattr(value, "dtype"):
+        try:
+            return f"{float(value):.4g}"
+        except (TypeError, ValueError):
+            pass
+    return str(value)
+
+
+@pytest.fixture
+def figures(request):
+    return Figures(request.node.nodeid.split("/")[-1])
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_call(item):
+    """After the test itself: all figures that do not hold, at once"""
+    figures = getattr(item, "funcargs", {}).get("figures")
+    if figures is None:
+        return
+    if figures.failed:
+        pytest.fail("\n".join(figures.failed), pytrace=False)
+    if not figures.compared:
+        pytest.fail("the test compared nothing", pytrace=False)
+
+
+def pytest_terminal_summary(terminalreporter):
+    if not _lines:
+        return
+    terminalreporter.section("figures and their bounds")
+    last = None
+    for test, text in _lines:
+        if test != last:
+            terminalreporter.write_line(test)
+        terminalreporter.write_line("    " + text)
+        last = test
