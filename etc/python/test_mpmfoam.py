@@ -102,6 +102,18 @@ def testCaseJoinsProcessors(tmp_path):
         case.cloudField("0.5", "water", "U")
 
 
+def testCloudOfProcessorsBesideZero(tmp_path):
+    """0 of the case holds fields, but the points are with the processors"""
+    write(tmp_path/"system"/"controlDict", "dictionary", "")
+    write(tmp_path/"0"/"U.water", "volVectorField", "")
+    for i in range(2):
+        write(tmp_path/f"processor{i}"/"0"/"lagrangian"/"water"/"p",
+              "scalarField", f"1({i})")
+    case = Case(tmp_path)
+    assert case.hasCloud("0", "water") and not case.hasCloud("0", "soil")
+    assert case.cloudField("0", "water", "p").tolist() == [0, 1]
+
+
 def testDatOfRestart(tmp_path):
     first = tmp_path/"postProcessing"/"front"/"0"/"front.dat"
     second = tmp_path/"postProcessing"/"front"/"0.2"/"front.dat"

@@ -399,8 +399,9 @@ class RunningCase:
             raise CaseError(f"{self.path}: the log of mpmFoam has no End")
         return result
 
-    def decompose(self, ranks, n=None, cellRank=None):
-        """By planes into n parts per direction, or by the rank of each cell"""
+    def decompose(self, ranks, n=None, cellRank=None, times=None):
+        """By planes into n parts per direction, or by the rank of each cell;
+        the time of the start, or the times given"""
         entries = {"numberOfSubdomains": ranks}
         if cellRank is not None:
             entries.update(method="manual", manualCoeffs={
@@ -413,7 +414,7 @@ class RunningCase:
                 "n": n or (ranks, 1, 1), "delta": 0.001})
         (self.path/"system"/"decomposeParDict").write_text(
             header("decomposeParDict") + foamText(entries))
-        self.run("decomposePar")
+        self.run("decomposePar", *(["-time", times] if times else []))
         return self
 
     def change(self, **sections):
@@ -528,12 +529,11 @@ class RunningCase:
         return int(np.sum(out | ~np.all(np.isfinite(x), axis=1)))
 
 
-def damBreak(dim=2, h=0.02, **entries):
-    """A small dam break: a column of 0.2 x 0.2 in a box of 0.5 x 0.4 (3D: 0.2
-    wide)"""
+def damBreak(dim=2, h=0.02, width=0.2, height=0.2, **entries):
+    """A small dam break: a column of width x height in a box of 0.5 x 0.4
+    (3D: 0.2 wide)"""
     size = (0.5, 0.4) if dim == 2 else (0.5, 0.2, 0.4)
     cells = tuple(round(length/h) for length in size)
-    top = (0.2, 0.2) if dim == 2 else (0.2, 0.2, 0.2)
-    low = (0, 0) if dim == 2 else (0, 0, 0)
-    return Setup(cells=cells, h=h, regions={"column": hydrostatic(low, top)},
-                 **entries)
+    top = (width, height) if dim == 2 else (width, 0.2, height)
+    return Setup(cells=cells, h=h,
+                 regions={"column": hydrostatic((0,)*dim, top)}, **entries)

@@ -39,12 +39,12 @@ class Case:
 
     def hasCloud(self, time, cloud):
         return any((root/time/"lagrangian"/cloud).is_dir()
-                   for root in self._roots(time))
+                   for root in self._cloudRoots(time, cloud))
 
     def cloudField(self, time, cloud, name):
         """A field of a cloud, e.g. cloudField("0.1", "water", "x")"""
         parts = []
-        for root in self._roots(time):
+        for root in self._cloudRoots(time, cloud):
             path = root/time/"lagrangian"/cloud/name
             # A rank without points may have no files
             if path.is_file():
@@ -74,6 +74,14 @@ class Case:
         out = np.full((len(y), len(x)) + values.shape[1:], np.nan)
         out[j, i] = values
         return x, y, out
+
+    def _cloudRoots(self, time, cloud):
+        """setMaterialPoints in parallel leaves 0 of the case without points"""
+        if (self.path/time/"lagrangian"/cloud).is_dir() or (
+                not self.processors):
+            return self._roots(time)
+        return [p for p in self.processors if (p/time).is_dir()] \
+            or self._roots(time)
 
     def _roots(self, time):
         if (self.path/time).is_dir() and (
