@@ -76,12 +76,12 @@ def run(command, case, log):
     with open(case / f"log.{log}", "w") as out:
         code = subprocess.call(command, cwd=case, stdout=out, stderr=subprocess.STDOUT)
     if code:
-        text = (case / f"log.{log}").read_text()
+        text = (case / f"log.{log}").readText()
         sys.exit(f"{' '.join(command)} failed in {case}:\n{text[-2000:]}")
-    return (case / f"log.{log}").read_text()
+    return (case / f"log.{log}").readText()
 
 
-def write_numerics(case, numerics=None, cloud=None):
+def writeNumerics(case, numerics=None, cloud=None):
     """fvSolution and materialPointProperties with these entries changed."""
     settings = {"shapeFunction": "quadraticBSpline", "maxCo": "0.5"}
     settings.update(numerics or {})
@@ -108,7 +108,7 @@ water
     )
 
 
-def write_control(case, end, interval):
+def writeControl(case, end, interval):
     write(
         case / "system/controlDict",
         f"""application mpmFoam;
@@ -126,12 +126,12 @@ timePrecision 8;
     )
 
 
-def make_case(case, dim, per_direction, points):
+def makeCase(case, dim, perDirection, points):
     """A dam break at START; water of width L and height 2 L (2D) or L (3D)."""
     if case.exists():
         shutil.rmtree(case)
     rise = 2 if dim == 2 else 1
-    n = (points / per_direction**dim / rise) ** (1 / dim)
+    n = (points / perDirection**dim / rise) ** (1 / dim)
     n = max(4, 2 * round(n / 2))
     h = WIDTH / n
 
@@ -188,7 +188,7 @@ boundaryField
         case / "system/setMaterialPointsDict",
         f"""water
 {{
-    pointsPerDirection {per_direction};
+    pointsPerDirection {perDirection};
     regions
     {{
         column
@@ -212,15 +212,15 @@ simpleCoeffs { n (2 1 1); delta 0.001; }
 weightField alpha.water;
 """,
     )
-    write_numerics(case)
-    write_control(case, START, START)
+    writeNumerics(case)
+    writeControl(case, START, START)
     run(["blockMesh"], case, "blockMesh")
     run(["setMaterialPoints"], case, "setMaterialPoints")
     run(["mpmFoam"], case, "mpmFoam")
 
 
-def command(case, steps, warm_up, ranks=1, plain=False, result="result.json"):
-    line = ["mpmBenchmark", "-steps", str(steps), "-warmUp", str(warm_up)]
+def command(case, steps, warmUp, ranks=1, plain=False, result="result.json"):
+    line = ["mpmBenchmark", "-steps", str(steps), "-warmUp", str(warmUp)]
     line += ["-json", str(case.resolve() / result)]
     if plain:
         line += ["-plain"]
@@ -229,17 +229,17 @@ def command(case, steps, warm_up, ranks=1, plain=False, result="result.json"):
     return line
 
 
-def measure(case, steps, warm_up, **options):
-    run(command(case, steps, warm_up, **options), case, "mpmBenchmark")
-    return json.loads((case / "result.json").read_text())
+def measure(case, steps, warmUp, **options):
+    run(command(case, steps, warmUp, **options), case, "mpmBenchmark")
+    return json.loads((case / "result.json").readText())
 
 
-def measure_two(case, steps, warm_up):
+def measureTwo(case, steps, warmUp):
     """Two runs side by side that know nothing of each other."""
     names = ["result1.json", "result2.json"]
     runs = [
         subprocess.Popen(
-            command(case, steps, warm_up, result=name),
+            command(case, steps, warmUp, result=name),
             cwd=case, stdout=subprocess.DEVNULL,
         )
         for name in names
@@ -247,13 +247,13 @@ def measure_two(case, steps, warm_up):
     if any([r.wait() for r in runs]):
         sys.exit(f"mpmBenchmark failed in {case}")
     return max(
-        json.loads((case / name).read_text())["wallPerStep"] for name in names
+        json.loads((case / name).readText())["wallPerStep"] for name in names
     )
 
 
 def machine():
     name = platform.machine()
-    found = re.search(r"model name\s*: (.*)", read_text("/proc/cpuinfo"))
+    found = re.search(r"model name\s*: (.*)", readText("/proc/cpuinfo"))
     if found:
         name = found[1]
     commit = subprocess.run(
@@ -269,9 +269,9 @@ def machine():
     }
 
 
-def read_text(path):
+def readText(path):
     try:
-        return Path(path).read_text()
+        return Path(path).readText()
     except OSError:
         return ""
 
@@ -295,19 +295,19 @@ def table(title, columns, rows):
         print(f"    {first}  {rest}", flush=True)
 
 
-def steps_of(dim, quick):
+def stepsOf(dim, quick):
     """Timed steps, and steps before."""
     if quick:
         return 20, 5
     return (200, 50) if dim == 2 else (80, 20)
 
 
-def benchmark_configurations(work, names, quick):
+def benchmarkConfigurations(work, names, quick):
     results = {}
     rows = []
     for name in names:
         dim = CONFIGURATIONS[name][0]
-        r = measure(work / name, *steps_of(dim, quick), plain=True)
+        r = measure(work / name, *stepsOf(dim, quick), plain=True)
         results[name] = r
         rows.append([
             name, int(r["points"]), r["ns"], r["nsFastest"],
@@ -330,17 +330,17 @@ def benchmark_configurations(work, names, quick):
     return results
 
 
-def benchmark_options(work, name, quick):
+def benchmarkOptions(work, name, quick):
     """Each option against the default measured just before it."""
     case = work / name
     dim = CONFIGURATIONS[name][0]
     results = {}
     rows = []
     for option, (numerics, cloud) in OPTIONS.items():
-        base = measure(case, *steps_of(dim, quick))
-        write_numerics(case, numerics, cloud)
-        r = measure(case, *steps_of(dim, quick))
-        write_numerics(case)
+        base = measure(case, *stepsOf(dim, quick))
+        writeNumerics(case, numerics, cloud)
+        r = measure(case, *stepsOf(dim, quick))
+        writeNumerics(case)
         ratio = r["ns"] / base["ns"]
         results[option] = {
             "ns": r["ns"], "nsDefault": base["ns"], "ratioToDefault": ratio
@@ -353,18 +353,18 @@ def benchmark_options(work, name, quick):
     return results
 
 
-def benchmark_ranks(work, name, quick):
+def benchmarkRanks(work, name, quick):
     """Wall time of one rank, of two, and of two runs side by side."""
     case = work / name
     dim = CONFIGURATIONS[name][0]
-    steps, warm_up = steps_of(dim, quick)
+    steps, warmUp = stepsOf(dim, quick)
     run(["decomposePar", "-force", "-latestTime"], case, "decomposePar")
 
     one, two, independent = [], [], []
     for _ in range(1 if quick else 3):
-        one.append(measure(case, steps, warm_up)["wallPerStep"])
-        two.append(measure(case, steps, warm_up, ranks=2)["wallPerStep"])
-        independent.append(measure_two(case, steps, warm_up))
+        one.append(measure(case, steps, warmUp)["wallPerStep"])
+        two.append(measure(case, steps, warmUp, ranks=2)["wallPerStep"])
+        independent.append(measureTwo(case, steps, warmUp))
     result = {
         "wallPerStepOneRank": min(one),
         "wallPerStepTwoRanks": min(two),
@@ -380,7 +380,7 @@ def benchmark_ranks(work, name, quick):
     return result
 
 
-def benchmark(work, names, points, quick, with_ranks):
+def benchmark(work, names, points, quick, withRanks):
     out = {"machine": machine()}
     print(
         "{processor}, {cores} cores, load {loadAtStart:.2f}, commit {commit}".format(
@@ -389,15 +389,15 @@ def benchmark(work, names, points, quick, with_ranks):
         flush=True,
     )
     for name in names:
-        make_case(work / name, *CONFIGURATIONS[name], points)
-    out["configurations"] = benchmark_configurations(work, names, quick)
+        makeCase(work / name, *CONFIGURATIONS[name], points)
+    out["configurations"] = benchmarkConfigurations(work, names, quick)
 
     # One of each dimension
     some = [n for n in names if CONFIGURATIONS[n][1] == 5 - CONFIGURATIONS[n][0]]
     if not quick:
-        out["options"] = {n: benchmark_options(work, n, quick) for n in some}
-    if with_ranks:
-        out["twoRanks"] = {n: benchmark_ranks(work, n, quick) for n in some}
+        out["options"] = {n: benchmarkOptions(work, n, quick) for n in some}
+    if withRanks:
+        out["twoRanks"] = {n: benchmarkRanks(work, n, quick) for n in some}
     return out
 
 
@@ -427,7 +427,7 @@ def main():
 
     if args.prepare:
         for name in names:
-            make_case(args.prepare / name, *CONFIGURATIONS[name], points)
+            makeCase(args.prepare / name, *CONFIGURATIONS[name], points)
             print(args.prepare / name)
         return
 

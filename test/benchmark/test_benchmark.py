@@ -7,7 +7,7 @@ from pathlib import Path
 RUN = Path(__file__).resolve().parent / "run"
 
 
-def test_benchmark_runs_and_reports(tmp_path):
+def testRunsAndReports(tmp_path):
     result = subprocess.run(
         [RUN, "--quick", "--json", tmp_path / "benchmark.json"],
         capture_output=True, text=True, timeout=600,
@@ -22,7 +22,7 @@ def test_benchmark_runs_and_reports(tmp_path):
     assert figures["twoRanks"]["2D9"]["speedUp"] > 0
 
 
-def test_plain_kernel_moves_the_same_water(tmp_path):
+def testPlainKernelMovesTheSameWater(tmp_path):
     """Else the ratio to it would mean nothing."""
     result = subprocess.run(
         [RUN, "--quick", "--no-ranks", "--json", tmp_path / "benchmark.json", "2D16", "3D8"],
