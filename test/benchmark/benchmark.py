@@ -76,9 +76,9 @@ def run(command, case, log):
     with open(case / f"log.{log}", "w") as out:
         code = subprocess.call(command, cwd=case, stdout=out, stderr=subprocess.STDOUT)
     if code:
-        text = (case / f"log.{log}").readText()
+        text = (case / f"log.{log}").read_text()
         sys.exit(f"{' '.join(command)} failed in {case}:\n{text[-2000:]}")
-    return (case / f"log.{log}").readText()
+    return (case / f"log.{log}").read_text()
 
 
 def writeNumerics(case, numerics=None, cloud=None):
@@ -231,7 +231,7 @@ def command(case, steps, warmUp, ranks=1, plain=False, result="result.json"):
 
 def measure(case, steps, warmUp, **options):
     run(command(case, steps, warmUp, **options), case, "mpmBenchmark")
-    return json.loads((case / "result.json").readText())
+    return json.loads((case / "result.json").read_text())
 
 
 def measureTwo(case, steps, warmUp):
@@ -247,7 +247,7 @@ def measureTwo(case, steps, warmUp):
     if any([r.wait() for r in runs]):
         sys.exit(f"mpmBenchmark failed in {case}")
     return max(
-        json.loads((case / name).readText())["wallPerStep"] for name in names
+        json.loads((case / name).read_text())["wallPerStep"] for name in names
     )
 
 
@@ -271,7 +271,7 @@ def machine():
 
 def readText(path):
     try:
-        return Path(path).readText()
+        return Path(path).read_text()
     except OSError:
         return ""
 
