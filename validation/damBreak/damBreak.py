@@ -20,6 +20,7 @@ COLUMN = 0.1                    # width a of the column, m
 RHO, G = 1000, 9.81
 SPACINGS = [0.01, 0.005, 0.004, 0.0025]
 PICTURES = [0.05, 0.10, 0.15, 0.18]
+BEFORE_TOP = 0.28               # the jet has not reached the top yet, s
 FILM = 1e-3                     # depth at which a film counts as front, m
 
 
@@ -42,10 +43,21 @@ def runs():
                 [TUTORIAL],
                 study.MPMFOAM,
                 {"system/blockMeshDict": mesh,
+                 # Open as for interFoam; the tutorial has a lid
+                 "0.orig/U.water":
+                    {"boundaryField/atmosphere": "{ type zeroGradient; }"},
                  "system/setMaterialPointsDict":
                     {"water/pointsPerDirection": points}},
                 about={"code": "mpmFoam", "h": h, "points": points},
-                optional=points != 4))
+                    optional=points != 4))
+    # Water that leaves takes energy along: what the scheme loses shows only
+    # in a closed tank
+    h = 0.004
+    out.append(study.Run(
+        f"mpmFoam_h{h:g}_lid", [TUTORIAL], study.MPMFOAM,
+        {"system/blockMeshDict":
+            {"h": h, "nx": round(WIDTH/h), "ny": round(HEIGHT/h)}},
+        about={"code": "mpmFoam", "h": h, "points": 4, "lid": True}))
     return out
 
 
@@ -71,6 +83,7 @@ class Result:
         self.film = np.array(film)
         self.column = np.array(column)
         self.log = run.log
+        self.lid = run.about.get("lid", False)
         self.cpuPerSecond = self.log.cpuTime/self.log.time
 
     def alpha(self, time):
@@ -138,7 +151,8 @@ def evaluate(done, results):
         out[f"frontLead_{name}"] = lead(r, r.front)
         out[f"frontLeadFilm_{name}"] = lead(r, r.film)
         t, energy = r.energy()
-        out[f"energyRatio_t0.3_{name}"] = np.interp(0.3, t, energy)
+        for time in [BEFORE_TOP, 0.3]:
+            out[f"energyRatio_t{time:g}_{name}"] = np.interp(time, t, energy)
         out[f"cpuPerSimulatedSecond_{name}"] = r.cpuPerSecond
         out[f"stepCount_{name}"] = r.log.stepCount
         if r.code == "mpmFoam":
@@ -150,7 +164,7 @@ def evaluate(done, results):
             key = "frontDifference" + ("" if front == "front" else "Film")
             out[f"{key}Max_h{h:g}"] = largest
             out[f"{key}Mean_h{h:g}"] = mean
-    out["commit"] = study.commit()
+    out.update(study.provenance(done))
     metrics.writeMetrics(results/"metrics.json", out)
 
     fronts(found, results)
@@ -235,7 +249,7 @@ def drawCurves(found, results):
                     **measured)
 
     for r in sorted(found.values(), key=lambda r: -r.h):
-        if r.run.optional:
+        if r.run.optional or r.lid:
             continue
         look = dict(color=style.MPM if r.code == "mpmFoam"
                     else style.INTERFOAM,
@@ -248,7 +262,7 @@ def drawCurves(found, results):
     for code, colour in [("mpmFoam", style.MPM),
                          ("interFoam", style.INTERFOAM)]:
         mine = sorted((1e3*r.h, r.cpuPerSecond) for r in found.values()
-                      if r.code == code and not r.run.optional)
+                      if r.code == code and not (r.run.optional or r.lid))
         if mine:
             axes[1, 1].loglog(*zip(*mine), "o-", color=colour, label=code)
 
@@ -267,10 +281,11 @@ def drawCurves(found, results):
 
 
 def report(found, both, out):
-    print(f"{'run':<20}{'lead/a':>8}{'film':>7}{'E(0.3)':>8}{'CPU s/s':>9}")
+    print(f"{'run':<22}{'lead/a':>8}{'film':>7}{'E(.28)':>8}{'E(0.3)':>8}{'CPU s/s':>9}")
     for name, r in found.items():
-        print(f"{name:<20}{out[f'frontLead_{name}']:8.3f}"
+        print(f"{name:<22}{out[f'frontLead_{name}']:8.3f}"
               f"{out[f'frontLeadFilm_{name}']:7.3f}"
+              f"{out[f'energyRatio_t{BEFORE_TOP:g}_{name}']:8.3f}"
               f"{out[f'energyRatio_t0.3_{name}']:8.3f}"
               f"{r.cpuPerSecond:9.1f}")
     for h in both:
@@ -279,7 +294,8 @@ def report(found, both, out):
               f"mean {100*out[f'frontDifferenceMean_h{h:g}']:+.1f} % "
               f"(1 mm film: {100*out[f'frontDifferenceFilmMax_h{h:g}']:+.1f},"
               f" {100*out[f'frontDifferenceFilmMean_h{h:g}']:+.1f} %)")
-    print("asked: lead <= 0.35 a, E(0.3) >= 0.97, front within 5 % of "
+    print("asked: lead <= 0.35 a, E(0.3) >= 0.97 (in the closed tank, "
+          "_lid:\nelsewhere water has left by then), front within 5 % of "
           "interFoam on the finest common mesh")
 
 

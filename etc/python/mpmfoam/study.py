@@ -8,7 +8,9 @@ A study lists its runs and evaluates those that are finished:
 
 Each run lives in runs/<name> beside the study. A run that is finished is
 skipped on the next call as long as its template and its settings are the
-same; one that was interrupted or has failed is run again from its start.
+same; one that was interrupted or has failed is run again from its start. Each
+run notes commit and build of the solver that made it (provenance); --current
+runs again what another build made.
 """
 
 import argparse
@@ -16,6 +18,7 @@ import fnmatch
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -72,12 +75,14 @@ class Run:
             parts += [str(place).encode(), source.read_bytes()]
         return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
-    def finished(self):
+    def stamp(self):
         try:
-            stamp = json.loads((self.path/_STAMP).read_text())
+            return json.loads((self.path/_STAMP).read_text())
         except (OSError, ValueError):
-            return False
-        return stamp["digest"] == self.digest()
+            return {}
+
+    def finished(self):
+        return self.stamp().get("digest") == self.digest()
 
     def make(self):
         """A fresh case directory"""
@@ -97,13 +102,15 @@ class Run:
     def run(self):
         """All commands, each into log.<command>, with progress"""
         start = time.time()
+        madeBy = build(self.commands[-1])
         endTime = float(entry(self.path/"system"/"controlDict", "endTime"))
         for command in self.commands:
             logFile = self.path/f"log.{command}"
             with open(logFile, "w") as out:
                 process = subprocess.Popen(
                     [command], cwd=self.path, stdout=out,
-                    stderr=subprocess.STDOUT)
+                    stderr=subprocess.STDOUT,
+                    env={**os.environ, "PWD": str(self.path)})
                 try:
                     while process.poll() is None:
                         time.sleep(0.2)
@@ -123,8 +130,11 @@ class Run:
         _progress(self.name, None, endTime, start)
         if not self.log.finished:
             raise RunError(f"{self.name}: the log has no End")
+        if build(self.commands[-1]) != madeBy:
+            raise RunError(f"{self.name}: {self.commands[-1]} was built anew "
+                           "during the run")
         (self.path/_STAMP).write_text(json.dumps({
-            "digest": self.digest(), "commit": commit(),
+            "digest": self.digest(), "commit": commit(), "build": madeBy,
             "date": time.strftime("%Y-%m-%d")}) + "\n")
 
     def _sources(self):
@@ -172,6 +182,28 @@ def commit():
         return "unknown"
 
 
+def build(application):
+    """A digest of an application and of our libraries that it loads"""
+    path = shutil.which(application)
+    if not path:
+        return "none"
+    loaded = subprocess.run(["ldd", path], capture_output=True, text=True)
+    files = [path] + sorted(re.findall(r"=> (\S*/libmpm\S+)", loaded.stdout))
+    digest = hashlib.sha256()
+    for file in files:
+        digest.update(Path(file).read_bytes())
+    return digest.hexdigest()[:10]
+
+
+def provenance(done):
+    """Commits, builds and dates of the runs of mpmFoam, as metrics. More than
+    one build means that the runs are not comparable to the last digit."""
+    stamps = [run.stamp() for run in done.values()
+              if run.commands[-1] == "mpmFoam"]
+    return {key: " ".join(sorted({str(s.get(key)) for s in stamps}))
+            for key in ["commit", "build", "date"]} if stamps else {}
+
+
 def main(here, runs, evaluate, description=None):
     """Command line of a study. evaluate(done, results): done maps the names
     of the finished runs to their Run, results is the directory for CSV,
@@ -183,6 +215,8 @@ def main(here, runs, evaluate, description=None):
                         help="list the runs and their state")
     parser.add_argument("--evaluate", action="store_true",
                         help="evaluate what is finished, run nothing")
+    parser.add_argument("--current", action="store_true",
+                        help="run again what another build of the solver made")
     arguments = parser.parse_args()
 
     here = Path(here)
@@ -206,7 +240,9 @@ def main(here, runs, evaluate, description=None):
     failed = []
     if not arguments.evaluate:
         for run in chosen:
-            if run.finished():
+            if run.finished() and not (
+                    arguments.current and
+                    run.stamp().get("build") != build(run.commands[-1])):
                 continue
             if not shutil.which(run.commands[-1]):
                 failed.append(f"{run.name}: no {run.commands[-1]} in PATH")
@@ -223,6 +259,9 @@ def main(here, runs, evaluate, description=None):
         results = here/"results"
         results.mkdir(exist_ok=True)
         evaluate(done, results)
+        if " " in provenance(done).get("build", ""):
+            print("CAUTION: these runs come from more than one build of "
+                  "mpmFoam; ./Allrun --current makes them anew")
     if failed:
         sys.exit("Not finished:\n" + "\n".join(
             f"    {line.splitlines()[0]}" for line in failed))

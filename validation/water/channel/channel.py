@@ -74,7 +74,7 @@ def evaluate(done, results):
         ax.set_title(f"{name}: lines mpmFoam, circles exact")
         ax.legend()
     style.save(fig, results/"channel.png")
-    out["commit"] = study.commit()
+    out.update(study.provenance(done))
     reference.writeCsv(results/"channel.csv", columns,
                        "velocities over U; T = nu t/H^2")
     metrics.writeMetrics(results/"metrics.json", out)

@@ -13,16 +13,16 @@ sys.path.insert(0, str(HERE.parent))
 from common import G, study, waterRun  # noqa: E402
 from mpmfoam import metrics, style  # noqa: E402
 
-# Corners where the solid is convex, the level that drives the flow, the
-# times of the figure, and the solid itself as boxes (x0, x1, y0, y1)
+# Convex corners of the solid that water touches, the level that drives the
+# flow, and the solid itself as boxes (x0, x1, y0, y1). The jet leaves the gate
+# at its upstream edge and does not touch the downstream one.
 SCENES = {
     "gate": dict(
-        h=0.005, level=0.20, time=0.25,
-        corners={"lip, upstream": (0.20, 0.10), "lip": (0.24, 0.10),
-                 "edge of the step": (0.40, 0.05)},
+        h=0.005, level=0.20,
+        corners={"lip": (0.20, 0.10), "edge of the step": (0.40, 0.05)},
         solids=[(0, 0.40, 0, 0.05), (0.20, 0.24, 0.10, 0.25)]),
     "step": dict(
-        h=0.004, level=0.20, time=0.20,
+        h=0.004, level=0.20,
         corners={"front edge": (0.20, 0.048), "rear edge": (0.224, 0.048)},
         solids=[(0.20, 0.224, 0, 0.048)]),
 }
@@ -36,37 +36,43 @@ def runs():
 
 
 def evaluate(done, results):
-    out = {}
+    out, touched = {}, {}
     for name, run in done.items():
         scene, case = run.about, run.case
         h, level = scene["h"], scene["level"]
-        inside, fastest, roughest, fastestAll = 0, 0, 0, 0
+        inside, fastest, roughest = 0, 0, 0
         for time in case.times()[1:]:
             x, u = (case.cloudField(time, "water", f)[:, :2]
                     for f in ["x", "U"])
             speed = np.linalg.norm(u, axis=1)
-            # No point is faster than if it had fallen from the first level
+            # Steady flow is no faster than a fall from the first level; an
+            # impact may be
             limit = np.sqrt(2*G*np.maximum(level - x[:, 1], h))
-            fastestAll = max(fastestAll, (speed/limit).max())
             for x0, x1, y0, y1 in scene["solids"]:
                 inside += np.sum(
                     (x[:, 0] > x0 + TOLERANCE) & (x[:, 0] < x1 - TOLERANCE)
                     & (x[:, 1] > y0 + TOLERANCE) & (x[:, 1] < y1 - TOLERANCE))
-            for corner in scene["corners"].values():
+            for label, corner in scene["corners"].items():
                 near = np.linalg.norm(x - corner, axis=1) < NEAR*h
                 if near.sum() < 10:
                     continue
+                touched[name, label] = max(
+                    touched.get((name, label), (0, None)),
+                    (speed[near].sum(), time))
                 fastest = max(fastest, (speed/limit)[near].max())
                 roughest = max(roughest, roughness(x[near], u[near]))
         out[f"pointsInSolid_{name}"] = int(inside)
-        out[f"speedOverFallMax_{name}"] = fastestAll
         out[f"speedOverFallMaxAtCorners_{name}"] = fastest
         out[f"roughnessMaxAtCorners_{name}"] = roughest
-    out["commit"] = study.commit()
+    out.update(study.provenance(done))
     metrics.writeMetrics(results/"metrics.json", out)
     metrics.printTable(out, "asked: no spurious velocities at corners "
                             "(figure); no point in a solid")
-    draw(done, results)
+    for name, run in done.items():
+        for label in run.about["corners"]:
+            if (name, label) not in touched:
+                print(f"    CAUTION: no water at {name}, {label}: not tested")
+    draw(done, touched, results)
 
 
 def roughness(x, u):
@@ -79,16 +85,16 @@ def roughness(x, u):
     return np.sqrt((rest**2).sum()/(u**2).sum())
 
 
-def draw(done, results):
-    panels = [(run, label, corner) for run in done.values()
-              for label, corner in run.about["corners"].items()]
+def draw(done, touched, results):
+    """Each corner at the write time when the flow past it is strongest"""
     fig, axes = style.plt.subplots(
-        2, 3, figsize=(10, 6.8), layout="constrained")
-    for ax in axes.flat[len(panels):]:
+        2, 2, figsize=(8, 7.2), layout="constrained")
+    for ax in axes.flat[len(touched):]:
         ax.axis("off")
-    for ax, (run, label, corner) in zip(axes.flat, panels):
+    for ax, ((name, label), (_, time)) in zip(axes.flat, touched.items()):
+        run = done[name]
         case, h = run.case, run.about["h"]
-        time = case.nearestTime(run.about["time"])
+        corner = run.about["corners"][label]
         x, u = (case.cloudField(time, "water", f)[:, :2] for f in ["x", "U"])
         near = np.abs(x - corner).max(axis=1) < 5*h
         x, u = x[near], u[near]

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """A round drop without gravity that starts with v = A0 (-x, y): axes of the
-ellipse against the exact solution."""
+ellipse against the exact solution.
+
+Pressure is not judged: the points start at p = 0, the exact solution with
+rho A0^2 R^2/2 = 500 Pa in the middle, and what is missing rings on as sound."""
 
 import sys
 from pathlib import Path
@@ -33,7 +36,8 @@ def evaluate(done, results):
     out = {}
     columns = {"run": [], "t": [], "a": [], "b": [], "aExact": [],
                "bExact": []}
-    fig, panels = style.figure(1, 2, width=8, height=3.4)
+    fig, panels = style.plt.subplots(
+        1, 2, figsize=(7, 3.4), layout="constrained", width_ratios=[2, 1])
     for name, run in done.items():
         case = run.case
         t = np.array(case.times(), dtype=float)
@@ -46,6 +50,12 @@ def evaluate(done, results):
         for key, values in zip(columns, [[name]*len(t), t, a, b, aExact,
                                          bExact]):
             columns[key] += list(values)
+        x, p = (case.cloudField(case.times()[-1], "water", f)
+                for f in ["x", "p"])
+        middle = np.hypot(x[:, 0], x[:, 1]) < 0.15
+        out[f"pressureCentreEnd_{name}"] = p[middle].mean()
+        out[f"pressureCentreEndExact_{name}"] = 1000*np.interp(
+            t[-1], exact["A0t"], exact["p_c"])
         colour = style.COLOURS[list(done).index(name)]
         panels[0].plot(t, a, color=colour, label=f"{name}: a")
         panels[0].plot(t, b, "--", color=colour, label=f"{name}: b")
@@ -64,10 +74,11 @@ def evaluate(done, results):
     angle = np.linspace(0, 2*np.pi, 200)
     panels[1].plot(aExact[-1]*np.cos(angle), bExact[-1]*np.sin(angle),
                    color=style.REFERENCE, lw=0.8)
-    panels[1].set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    panels[1].set_title(f"{run.name} at {time} s; line: exact")
+    panels[1].set(xlabel="x [m]", ylabel="y [m]", aspect="equal",
+                  xlim=(-1, 1))
+    panels[1].set_title("points, line exact;\np rings (see script)")
     style.save(fig, results/"ellipticalDrop.png")
-    out["commit"] = study.commit()
+    out.update(study.provenance(done))
     reference.writeCsv(results/"ellipticalDrop.csv", columns, "m and s")
     metrics.writeMetrics(results/"metrics.json", out)
     metrics.printTable(out, "asked: axisErrorMax_h0.05 <= 0.02")

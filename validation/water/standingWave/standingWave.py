@@ -66,7 +66,7 @@ def evaluate(done, results):
             out[f"dampingOrder_h{coarse:g}_h{fine:g}"] = \
                 np.log(rates[coarse]/rates[fine])/np.log(coarse/fine)
     out["dampingRateViscous"] = viscous
-    out["commit"] = study.commit()
+    out.update(study.provenance(done))
 
     t = np.linspace(0, 5*period, 500)
     axes[0].plot(t, 1e3*AMPLITUDE*np.cos(omega*t), "--", lw=0.8,
