@@ -42,10 +42,13 @@ def agree(figures, case, serial, bound=BOUND):
 def withObstacle(dim, **entries):
     """Water that collapses around an obstacle across the middle of the mesh,
     where most decompositions have a boundary between ranks"""
-    setup = damBreak(dim, width=0.3, height=0.26,
-                     points=3 if dim == 2 else 2, **entries)
-    setup.solid = [((11, 0), (14, 3)) if dim == 2
-                   else ((11, 3, 0), (14, 7, 3))]
+    if dim == 2:
+        setup = damBreak(dim, width=0.3, height=0.26, points=3, **entries)
+        setup.solid = [((11, 0), (14, 3))]
+    else:
+        setup = damBreak(dim, h=0.025, width=0.3, height=0.25, points=2,
+                         **entries)
+        setup.solid = [((9, 3, 0), (12, 6, 3))]
     return setup.steps(STEPS)
 
 
