@@ -164,7 +164,7 @@ def testRestartFromAscii(tmp_path, figures, precision):
 
 def testDroppedColumn(tmp_path, figures):
     """0.2 x 0.2 m of water dropped from 1 m: 4.4 m/s at the floor"""
-    setup = Setup(cells=(40, 48), h=0.025, points=3, regions={
+    setup = Setup(cells=(40, 56), h=0.025, points=3, regions={
         "column": box((0.4, 1), (0.6, 1.2))})
     case = ran(setup.until(1, write=0.05), tmp_path, figures)
     c = case.state("0")["soundSpeed"]
