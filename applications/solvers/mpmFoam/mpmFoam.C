@@ -68,7 +68,7 @@ int main(int argc, char *argv[])
     );
 
     mpm::materialPointSystem points(mesh);
-    points.read();
+    points.read(runTime);
     points.reportEffects();
 
     std::signal(SIGTERM, terminate);
@@ -78,7 +78,7 @@ int main(int argc, char *argv[])
     while (runTime.run())
     {
         points.setDeltaT(runTime);
-        ++runTime;
+        points.advance(runTime);
 
         points.particlesToGrid();
         points.updateStress();
@@ -90,9 +90,7 @@ int main(int argc, char *argv[])
 
         if (returnReduce(label(terminated), maxOp<label>()))
         {
-            Info<< "SIGTERM: writing a restart and ending the run" << nl
-                << endl;
-            runTime.stopAt(Time::stopAtControls::saWriteNow);
+            points.stop(runTime);
         }
 
         points.updateMeshFields();

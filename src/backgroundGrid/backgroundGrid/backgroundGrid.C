@@ -245,6 +245,13 @@ void Foam::mpm::backgroundGrid::buildExchange()
         }
     }
     exchange_.reset(new nodeExchange(nodes, ids));
+
+    if (shared)
+    {
+        share_.assign(nNodes(), 1);
+        exchange_->sum(share_);
+        for (scalar& copies : share_) copies = 1/copies;
+    }
 }
 
 

@@ -23,6 +23,9 @@ namespace
 {
     //- Distance to the wall of a point that was put back, in cells
     const Foam::scalar wallGap = 1e-9;
+
+    //- Distance behind a wall, in cells, that is put down to rounding
+    const Foam::scalar wallRounding = 1e-6;
 }
 
 
@@ -64,6 +67,31 @@ Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
           - grid_.lower(d);
     }
     return i;
+}
+
+
+void Foam::mpm::materialPointCloud::pullFromUpperWall(const label point)
+{
+    const lattice& cells = grid_.cells();
+    const index3 i = boxCoordinate(point);
+
+    bool inBox = true;
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        inBox = inBox && i[d] >= 0 && i[d] < grid_.nNodes(d) - 1;
+    }
+    if (inBox && grid_.ownCell(grid_.index(i))) return;
+
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        scalar& x = points_.column(x_ + d)[point];
+        const scalar xi = (x - cells.origin(d))/cells.spacing(d);
+        const scalar plane = std::round(xi);
+        if (mag(xi - plane) < wallRounding && i[d] >= plane - grid_.lower(d))
+        {
+            x = cells.origin(d) + (plane - wallGap)*cells.spacing(d);
+        }
+    }
 }
 
 

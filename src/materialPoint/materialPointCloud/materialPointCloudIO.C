@@ -245,6 +245,7 @@ void Foam::mpm::materialPointCloud::readPoints()
     // Cells from the exact positions
     for (label p = 0; p < n; ++p)
     {
+        pullFromUpperWall(p);
         const index3 i = boxCoordinate(p);
         bool inside = true;
         for (label d = 0; d < grid_.nDim(); ++d)

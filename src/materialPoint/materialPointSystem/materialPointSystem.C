@@ -27,6 +27,20 @@ void Foam::mpm::materialPointSystem::readSettings()
         readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
     );
 
+    settings_.energyBalance = false;
+    if (const dictionary* functions = time_.controlDict().findDict("functions"))
+    {
+        for (const entry& e : *functions)
+        {
+            settings_.energyBalance = settings_.energyBalance
+             || (
+                    e.isDict()
+                 && e.dict().lookupOrDefault<word>("type", word::null)
+                 == "materialPointEnergy"
+                );
+        }
+    }
+
     checkKeywords
     (
         control_,
@@ -165,6 +179,66 @@ void Foam::mpm::materialPointSystem::findFieldControls()
 }
 
 
+void Foam::mpm::materialPointSystem::findWriteIntervals()
+{
+    const dictionary& dict = time_.controlDict();
+
+    if
+    (
+        dict.lookupOrDefault<word>("writeControl", "timeStep")
+     == "adjustableRunTime"
+    )
+    {
+        writeIntervals_.append(readPositive(dict, "writeInterval", dimTime));
+    }
+    if (const dictionary* functions = dict.findDict("functions"))
+    {
+        for (const entry& e : *functions)
+        {
+            if (!e.isDict()) continue;
+            for (const word& prefix : {word("write"), word("execute")})
+            {
+                const word control
+                (
+                    e.dict().lookupOrDefault<word>(prefix + "Control", "none")
+                );
+                if (control == "adjustable" || control == "adjustableRunTime")
+                {
+                    writeIntervals_.append
+                    (
+                        readPositive(e.dict(), prefix + "Interval", dimTime)
+                    );
+                }
+            }
+        }
+    }
+}
+
+
+Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime() const
+{
+    // What counts as the same time, in intervals
+    const scalar same = 1e-6;
+
+    scalar next = GREAT;
+    for (const scalar interval : writeIntervals_)
+    {
+        // Time counts intervals from its start; most starts are multiples
+        const scalar start = time_.startTime().value();
+        scalar base = start - interval*std::round(start/interval);
+        if (mag(base) < same*interval) base = 0;
+
+        const scalar passed =
+            std::floor((time_.value() - base)/interval + same);
+        next = min(next, base + (passed + 1)*interval);
+    }
+    if (next == GREAT) return next;
+
+    // As a restart reads it from the name of the directory
+    return readScalar(Time::timeName(next));
+}
+
+
 Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT(word& limiter)
 {
     const scalar h = grid_.cells().minSpacing();
@@ -231,12 +305,15 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     pointSteps_(0),
     maxPoints_(0),
     logThisStep_(true),
-    fieldsCurrent_(false)
+    fieldsCurrent_(false),
+    target_(GREAT),
+    stopped_(false)
 {
     readSettings();
     readGravity();
     makeClouds();
     findFieldControls();
+    findWriteIntervals();
     signalSpeed_.setSize(clouds_.size(), 0);
 }
 
@@ -340,10 +417,23 @@ void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
             deltaT = maxDeltaT;
             limiter_ = "maxDeltaT";
         }
-        // Single precision: the distance to the next write time differs in
-        // the last digits after a restart, the time step then does not
-        runTime.setDeltaT(scalar(float(deltaT)));
-        runTime.setDeltaT(scalar(float(runTime.deltaTValue())), false);
+
+        // Only the last two steps before a write time are cut, and time is
+        // set to it exactly (advance): a restarted run takes the same steps
+        // as one that went on
+        const scalar next = nextWriteTime();
+        const scalar remaining = next - runTime.value();
+        target_ = GREAT;
+        if (deltaT >= (1 - 1e-9)*remaining)
+        {
+            deltaT = remaining;
+            target_ = next;
+        }
+        else if (2*deltaT > remaining)
+        {
+            deltaT = 0.5*remaining;
+        }
+        runTime.setDeltaT(deltaT, false);
     }
     else
     {
@@ -360,6 +450,27 @@ void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
                 << exit(FatalIOError);
         }
     }
+}
+
+
+void Foam::mpm::materialPointSystem::advance(Time& runTime)
+{
+    ++runTime;
+    if (target_ < GREAT)
+    {
+        runTime.setTime(target_, runTime.timeIndex());
+        target_ = GREAT;
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::stop(Time& runTime)
+{
+    if (stopped_) return;
+
+    Info<< "SIGTERM: writing a restart and ending the run" << nl << endl;
+    runTime.stopAt(Time::stopAtControls::saWriteNow);
+    stopped_ = true;
 }
 
 

@@ -8,6 +8,8 @@ License
 #include "IFstream.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
+#include "cloud.H"
+#include <fstream>
 
 const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
 
@@ -16,17 +18,44 @@ const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
 namespace
 {
 
-//- Does the state file of a time directory end as it should
-bool complete(const Foam::fileName& state)
+//- Does the last line of a file hold the comment that OpenFOAM ends with
+bool ended(const Foam::fileName& path)
 {
-    Foam::IFstream file(state);
-    std::string line;
-    while (file.good())
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file.good()) return false;
+
+    const std::streamoff size = file.tellg();
+    const std::streamoff tail = std::min(size, std::streamoff(100));
+    std::string text(tail, ' ');
+    file.seekg(size - tail);
+    file.read(&text[0], tail);
+    return text.find("// ***") != std::string::npos;
+}
+
+
+//- Is a time directory whole: its state file, which is written last, and all
+//  files of its clouds
+bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
+{
+    using namespace Foam;
+
+    if (!ended(timePath/"uniform"/stateName)) return false;
+
+    for (const fileName& name : readDir(timePath/cloud::prefix, fileName::DIRECTORY))
     {
-        file.getLine(line);
-        if (line.compare(0, 8, "complete") == 0) return true;
+        const fileName path(timePath/cloud::prefix/name);
+        const fileNameList files(readDir(path, fileName::FILE));
+        for (const fileName& file : files)
+        {
+            if (!ended(path/file)) return false;
+        }
+        // What every cloud needs
+        for (const char* needed : {"x", "U", "mass", "id"})
+        {
+            if (files.size() && !files.found(needed)) return false;
+        }
     }
-    return false;
+    return true;
 }
 
 } // End anonymous namespace
@@ -48,7 +77,7 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
     {
         if (t.name() == "constant") continue;
         found.insert(t.name());
-        if (complete(casePath/t.name()/"uniform"/stateName))
+        if (complete(casePath/t.name(), stateName))
         {
             whole.insert(t.name());
         }
@@ -82,7 +111,8 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
         if (readScalar(name) <= last) continue;
 
         Info<< "--> Time directory " << name << " is incomplete (its file"
-            << " uniform/" << stateName << " is missing or cut off): it is"
+            << " uniform/" << stateName << " or one of its clouds is missing or"
+            << " cut off): it is"
             << " skipped and renamed to " << name << ".incomplete." << nl
             << endl;
         const fileName from(casePath/name);
@@ -96,7 +126,7 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
 }
 
 
-void Foam::mpm::materialPointSystem::read()
+void Foam::mpm::materialPointSystem::read(Time& runTime)
 {
     cost_.reset();
     const IOobject header
@@ -139,6 +169,13 @@ void Foam::mpm::materialPointSystem::read()
         }
     }
     firstStep_ = clouds_[0].stepCount();
+
+    // The name of the directory is rounded
+    const scalar value = state.lookupOrDefault<scalar>("time", time_.value());
+    if (Time::timeName(value) == time_.timeName())
+    {
+        runTime.setTime(value, time_.timeIndex());
+    }
 }
 
 
@@ -183,6 +220,8 @@ void Foam::mpm::materialPointSystem::writeState() const
         cloud.writeState(dict);
         state.set(cloud.name(), dict);
     }
+
+    state.set("time", time_.value());
 
     // Last of all: its presence says that the time directory is whole
     state.set("complete", true);

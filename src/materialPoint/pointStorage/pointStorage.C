@@ -4,6 +4,17 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "pointStorage.H"
+#include <algorithm>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::pointStorage::setSize(const label n)
+{
+    for (auto& column : columns_) column.resize(n + nLanes, 0);
+    cell_.resize(n, -1);
+    size_ = n;
+}
+
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -20,7 +31,7 @@ Foam::label Foam::mpm::pointStorage::add
     fields_.push_back(field{name, rank, first, n});
     for (label i = 0; i < n; ++i)
     {
-        columns_.emplace_back(size_, scalar(0));
+        columns_.emplace_back(size_ + nLanes, scalar(0));
     }
     return first;
 }
@@ -28,9 +39,16 @@ Foam::label Foam::mpm::pointStorage::add
 
 void Foam::mpm::pointStorage::resize(const label n)
 {
-    for (auto& column : columns_) column.resize(n, 0);
-    cell_.resize(n, -1);
-    size_ = n;
+    // What lies in the padding is not zero
+    for (auto& column : columns_)
+    {
+        if (n > size_)
+        {
+            column.resize(n + nLanes);
+            std::fill(column.begin() + size_, column.end(), scalar(0));
+        }
+    }
+    setSize(n);
 }
 
 
@@ -42,28 +60,23 @@ void Foam::mpm::pointStorage::pack(const label point, scalar* buffer) const
 
 void Foam::mpm::pointStorage::append(const scalar* buffer, const label cell)
 {
-    for (auto& column : columns_) column.push_back(*buffer++);
-    cell_.push_back(cell);
-    ++size_;
+    setSize(size_ + 1);
+    for (auto& column : columns_) column[size_ - 1] = *buffer++;
+    cell_[size_ - 1] = cell;
 }
 
 
 void Foam::mpm::pointStorage::remove(const label point)
 {
-    for (auto& column : columns_)
-    {
-        column[point] = column.back();
-        column.pop_back();
-    }
-    cell_[point] = cell_.back();
-    cell_.pop_back();
-    --size_;
+    for (auto& column : columns_) column[point] = column[size_ - 1];
+    cell_[point] = cell_[size_ - 1];
+    setSize(size_ - 1);
 }
 
 
 void Foam::mpm::pointStorage::reorder(const labelUList& order)
 {
-    scratch_.resize(size_);
+    scratch_.resize(size_ + nLanes);
     for (auto& column : columns_)
     {
         for (label i = 0; i < size_; ++i) scratch_[i] = column[order[i]];

@@ -32,6 +32,14 @@ void Foam::mpm::waterCloud::select()
     {
         C_ = points_.add("velocityGradient", pointStorage::tensorValue);
     }
+    if (transfer_->affine() && grid_.shapeFunction() == linear::name)
+    {
+        IOWarningInFunction(dict_)
+            << "transfer " << transfer_->type() << " with shapeFunction linear"
+            << " is unstable at free surfaces: its gradient does not vanish"
+            << " where a node has almost no mass." << nl
+            << "    Use FLIP, PIC or XPIC, or a spline." << endl;
+    }
     if (transfer_->filtered())
     {
         filter_.assign(grid_.nNodes(), nodeVector{});

@@ -103,14 +103,18 @@ class waterKernelsFor
         (
             [&](const label i)
             {
-                bool inside = S[i] > 0.5;
+                bool inside = S[i] > waterCloud::insideSaturation;
                 if (inside)
                 {
                     for (const label n : neighbours_)
                     {
                         // Nodes behind walls have no control volume
                         inside = inside
-                         && (S[i + n] > 0.5 || inverseVolume[i + n] == 0);
+                         &&
+                            (
+                                S[i + n] > waterCloud::insideSaturation
+                             || inverseVolume[i + n] == 0
+                            );
                     }
                 }
                 velocity[i][dim] = inside ? S[i] - 1 : max(0.0, S[i] - 1.1);
@@ -174,8 +178,8 @@ public:
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         material m(makeMaterial(deltaT));
         kernels_.updateStress(c.view<dim>(), m, keep, c.nodes_);
-        c.stressWork_ += deltaT*m.stressWork;
-        c.correctionWork_ += m.correctionWork;
+        c.stressWork_ += deltaT*sumLanes(m.stressWork);
+        c.correctionWork_ += sumLanes(m.correctionWork);
 
         if (!c.grid_.exchange().idle())
         {
@@ -212,6 +216,8 @@ public:
         const scalar rho0 = c.fluid_.rho0();
 
         c.cost_.start("nodes");
+        if (c.settings_.energyBalance) nodes.oldVelocity = nodes.velocity;
+
         forActiveNodes
         (
             [&](const label i)
@@ -231,6 +237,29 @@ public:
             }
         );
         c.boundary_.constrain(nodes.velocity);
+
+        if (c.settings_.energyBalance)
+        {
+            // The work of the stresses was summed with the old velocity; the
+            // kinetic energy changes with the mean of old and new
+            scalar work = 0;
+            forActiveNodes
+            (
+                [&](const label i)
+                {
+                    scalar power = 0;
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        const scalar weight = nodes.momentum[i][dim]
+                           *c.g_[c.grid_.cells().axis(d)];
+                        power += (nodes.force[i][d] - weight)
+                           *(nodes.velocity[i][d] - nodes.oldVelocity[i][d]);
+                    }
+                    work += c.grid_.share(i)*power;
+                }
+            );
+            c.stressWork_ -= 0.5*deltaT*work;
+        }
         c.cost_.stop();
     }
 
@@ -245,7 +274,8 @@ public:
         (
             c.view<dim>(), m, deltaT, c.nodes_, c.movers_, c.sums_
         );
-        c.minJ_ = m.minJ;
+        c.minJ_ = GREAT;
+        for (int l = 0; l < nLanes; ++l) c.minJ_ = min(c.minJ_, m.minJ[l]);
         c.cost_.stop();
     }
 
@@ -263,11 +293,14 @@ public:
         kernels_.scalarsToGrid
         (
             c.view<dim>(),
-            [&](const label p, nodeVector& value)
+            [&](const label p, lanes& pV, lanes& V)
             {
-                const scalar V = m.volume(p);
-                value[0] = V*max(c.fluid_.pressure(m.J[p]), c.minPressure_);
-                value[1] = V;
+                V = m.volume(p);
+                pV = V*maxLanes
+                (
+                    c.fluid_.pressure(loadLanes(m.J + p)),
+                    allLanes(c.minPressure_)
+                );
             },
             pressure
         );

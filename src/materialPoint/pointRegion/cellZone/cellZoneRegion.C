@@ -1,0 +1,69 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "cellZoneRegion.H"
+#include "dictionaryEntries.H"
+#include "addToRunTimeSelectionTable.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(cellZoneRegion, 0);
+    addToRunTimeSelectionTable(pointRegion, cellZoneRegion, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::cellZoneRegion::cellZoneRegion
+(
+    const polyMesh& mesh,
+    const dictionary& dict,
+    const bool strictKeywords
+)
+:
+    pointRegion(mesh, dict),
+    inZone_(mesh.nCells())
+{
+    checkKeywords(dict, keywords({"zone"}), strictKeywords);
+
+    const word zone(dict.get<word>("zone"));
+    const label zonei = mesh.cellZones().findZoneID(zone);
+    if (zonei < 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword zone: there is no cellZone " << zone << nl
+            << "    Zones of the mesh: " << mesh.cellZones().names()
+            << exit(FatalIOError);
+    }
+    inZone_.set(mesh.cellZones()[zonei]);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::mpm::cellZoneRegion::contains
+(
+    const point& x,
+    const label celli
+) const
+{
+    return inZone_.test(celli);
+}
+
+
+Foam::boundBox Foam::mpm::cellZoneRegion::bounds() const
+{
+    boundBox box(boundBox::invertedBox);
+    for (const label celli : inZone_)
+    {
+        box.add(mesh_.points(), mesh_.cellPoints()[celli]);
+    }
+    box.reduce();
+    return box;
+}
+
+// ************************************************************************* //

@@ -1,0 +1,66 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "FlatOutput.H"
+#include "pointRegion.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(pointRegion, 0);
+    defineRunTimeSelectionTable(pointRegion, dictionary);
+}
+}
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::pointRegion::keywords(const wordList& own)
+{
+    wordList all
+    ({
+        "type", "velocity", "velocityGradient", "centre",
+        "pressure", "p", "level"
+    });
+    all.append(own);
+    return all;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::pointRegion::pointRegion
+(
+    const polyMesh& mesh,
+    const dictionary& dict
+)
+:
+    mesh_(mesh),
+    dict_(dict)
+{}
+
+
+Foam::autoPtr<Foam::mpm::pointRegion> Foam::mpm::pointRegion::New
+(
+    const polyMesh& mesh,
+    const dictionary& dict,
+    const bool strictKeywords
+)
+{
+    const word name(dict.get<word>("type"));
+    auto found = dictionaryConstructorTablePtr_->cfind(name);
+
+    if (!found.found())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword type: unknown region " << name << nl
+            << "    Valid names: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+    return found()(mesh, dict, strictKeywords);
+}
+
+// ************************************************************************* //
