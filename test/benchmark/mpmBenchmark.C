@@ -375,7 +375,7 @@ int main(int argc, char *argv[])
         )
     );
     mpm::materialPointSystem points(mesh);
-    points.read();
+    points.read(runTime);
 
     label nSteps = 200;
     label warmUp = 50;
