@@ -51,9 +51,15 @@ class Figures:
         """A figure without a bound"""
         self._line(f"{name} {_text(value)}")
 
-    def holds(self, name, condition, detail=""):
-        self._add(name, detail or condition, "is", "true" if not detail
-                  else "as expected", bool(condition))
+    def holds(self, name, condition, detail=None):
+        """A condition; detail says what was found"""
+        self._add(name, bool(condition) if detail is None else detail,
+                  "->", "right" if condition else "wrong", condition)
+
+    def contains(self, name, found, pattern):
+        """What a search for a pattern found in a text, None if nothing"""
+        self._add(name, "nothing" if found is None else f"'{found}'",
+                  "matches", f"/{pattern}/", found is not None)
 
     def _add(self, name, value, relation, bound, good):
         # Comparison with nan is false, and fails

@@ -17,11 +17,13 @@ def rms(values):
 # --- water at rest --------------------------------------------------------
 
 @pytest.mark.parametrize("dim, width, points", [
-    (2, 0.5, 3), (2, 1, 3), (2, 0.5, 4), (3, 0.125, 3)])
+    (2, 0.5, 3), (2, 0.5, 4), (3, 0.125, 3),
+    pytest.param(2, 1, 3, marks=pytest.mark.slow),
+    pytest.param(2, 1, 4, marks=pytest.mark.slow)])
 def testHydrostatic(tmp_path, figures, dim, width, points):
     """Column 0.5 m deep, h = depth/16, jittered points. The noise of the
     jitter is the largest at first; it settles within about 2 s."""
-    depth, h, end = 0.5, 0.5/16, 3
+    depth, h, end = 0.5, 0.5/16, 5
     n = round(width/h)
     if dim == 2:
         cells, low, top = (n, 20), (0, 0), (width, depth)
