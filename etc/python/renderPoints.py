@@ -54,7 +54,9 @@ def openCase(case, cloud, decomposed):
               and float(p.name) > 0 for p in case.iterdir() if p.is_dir())
     parallel = decomposed or (not own and (case/"processor0").is_dir())
     reader.CaseType = "Decomposed Case" if parallel else "Reconstructed Case"
+    # Takes effect with Refresh only
     reader.SkipZeroTime = 0
+    reader.Refresh()
     reader.UpdatePipelineInformation()
     region = f"lagrangian/{cloud}"
     if region not in reader.MeshRegions.Available:
@@ -243,4 +245,5 @@ def pointSpacing(points, corners):
     return float(size.max())/math.pow(np.median(counts), 1/2 if flat else 1/3)
 
 
-main()
+if __name__ == "__main__":
+    main()
