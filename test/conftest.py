@@ -29,9 +29,9 @@ def pytest_configure(config):
 
 
 class Figures:
-    """Compares figures with their bounds. Each is printed, and listed again
-    at the end of the session, whether it holds or not; a test that calls
-    several of them is told of all that do not hold."""
+    """Compares figures with their bounds. Each is printed; those with a bound
+    and all that do not hold are listed again at the end of the session. A
+    test that calls several of them is told of all that do not hold."""
 
     def __init__(self, test):
         self.test = test
@@ -39,17 +39,17 @@ class Figures:
         self.compared = 0
 
     def atMost(self, name, value, bound):
-        self._add(name, value, "<=", bound, value <= bound)
+        self._add(name, value, "<=", bound, value <= bound, listed=True)
 
     def atLeast(self, name, value, bound):
-        self._add(name, value, ">=", bound, value >= bound)
+        self._add(name, value, ">=", bound, value >= bound, listed=True)
 
     def equal(self, name, value, expected):
         self._add(name, value, "==", expected, value == expected)
 
     def show(self, name, value):
         """A figure without a bound"""
-        self._line(f"{name} {_text(value)}")
+        self._line(f"{name} {_text(value)}", True)
 
     def holds(self, name, condition, detail=None):
         """A condition; detail says what was found"""
@@ -61,19 +61,20 @@ class Figures:
         self._add(name, "nothing" if found is None else f"'{found}'",
                   "matches", f"/{pattern}/", found is not None)
 
-    def _add(self, name, value, relation, bound, good):
+    def _add(self, name, value, relation, bound, good, listed=False):
         # Comparison with nan is false, and fails
         good = bool(good)
         self.compared += 1
         self._line(f"{name} {_text(value)} {relation} {_text(bound)}"
-                   + ("" if good else "   FAILED"))
+                   + ("" if good else "   FAILED"), listed or not good)
         if not good:
             self.failed.append(f"{name}: {_text(value)}, not {relation} "
                                f"{_text(bound)}")
 
-    def _line(self, text):
+    def _line(self, text, listed):
         print(text)
-        _lines.append((self.test, text))
+        if listed:
+            _lines.append((self.test, text))
 
 
 def _text(value):
