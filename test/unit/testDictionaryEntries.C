@@ -1,0 +1,215 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "figures.H"
+#include "dictionaryEntries.H"
+#include "StringStream.H"
+#include "IFstream.H"
+#include "testMesh.H"
+#include <fstream>
+
+using namespace Foam;
+using namespace Foam::mpm;
+
+namespace
+{
+
+dictionary dictOf(const std::string& text)
+{
+    IStringStream is
+    (
+        text, IOstream::ASCII, IOstream::currentVersion, "constant/properties"
+    );
+    return dictionary(is);
+}
+
+//- The error and the file it names
+std::string errorIn(const std::function<void()>& op)
+{
+    try
+    {
+        op();
+    }
+    catch (const IOerror& e)
+    {
+        return e.message() + " file: " + e.ioFileName();
+    }
+    catch (const error& e)
+    {
+        return "an error without file: " + e.message();
+    }
+    FAIL("no error was raised");
+    return "";
+}
+
+} // End anonymous namespace
+
+
+TEST_CASE("dictionaryEntries: values with and without dimensions")
+{
+    const dictionary dict
+    (
+        dictOf
+        (
+            "plain 1000; full rho [1 -3 0 0 0 0 0] 1001;"
+            " nameless [1 -3 0 0 0 0 0] 1002; wrong [0 1 -1 0 0 0 0] 1003;"
+        )
+    );
+    atMost("plain", mag(readPositive(dict, "plain", dimDensity) - 1000), 0);
+    atMost("name, dimensions", mag(readPositive(dict, "full", dimDensity) - 1001), 0);
+    atMost("dimensions", mag(readPositive(dict, "nameless", dimDensity) - 1002), 0);
+
+    contains
+    (
+        errorIn([&]() { readPositive(dict, "wrong", dimDensity); }),
+        {"wrong", "[0 1 -1 0 0 0 0]", "[1 -3 0 0 0 0 0]", "constant/properties"}
+    );
+}
+
+
+TEST_CASE("dictionaryEntries: bounds")
+{
+    const dictionary dict
+    (
+        dictOf("low -1; zero 0; middle 0.3; one 1; high 2.5;")
+    );
+    auto read = [&](const word& keyword, const bool lower, const bool upper)
+    {
+        return readBounded(dict, keyword, dimless, 0, 1, lower, upper);
+    };
+
+    atMost("inside", mag(read("middle", false, false) - 0.3), 0);
+    atMost("lower bound included", mag(read("zero", true, false)), 0);
+    atMost("upper bound included", mag(read("one", false, true) - 1), 0);
+
+    const std::string file("constant/properties");
+    contains
+    (
+        errorIn([&]() { read("low", true, true); }),
+        {"keyword low", "-1", "0 <= low <= 1", file}
+    );
+    contains
+    (
+        errorIn([&]() { read("high", false, true); }),
+        {"keyword high", "2.5", "0 < high <= 1", file}
+    );
+    contains
+    (
+        errorIn([&]() { read("zero", false, true); }),
+        {"keyword zero", "0 < zero <= 1"}
+    );
+    contains
+    (
+        errorIn([&]() { read("one", true, false); }),
+        {"keyword one", "0 <= one < 1"}
+    );
+    contains
+    (
+        errorIn([&]() { readPositive(dict, "low", dimless); }),
+        {"keyword low", "-1", "0 < low"}
+    );
+    contains
+    (
+        errorIn([&]() { readPositive(dict, "absent", dimless); }),
+        {"absent", file}
+    );
+}
+
+
+TEST_CASE("dictionaryEntries: defaults")
+{
+    const dictionary dict(dictOf("given 3; bad 30;"));
+    atMost
+    (
+        "default",
+        mag(readBoundedOrDefault(dict, "absent", dimless, 7, 0, 10) - 7), 0
+    );
+    atMost
+    (
+        "given",
+        mag(readBoundedOrDefault(dict, "given", dimless, 7, 0, 10) - 3), 0
+    );
+    contains
+    (
+        errorIn
+        (
+            [&]() { readBoundedOrDefault(dict, "bad", dimless, 7, 0, 10); }
+        ),
+        {"keyword bad", "30", "0 < bad < 10"}
+    );
+}
+
+
+TEST_CASE("dictionaryEntries: choices")
+{
+    const dictionary dict(dictOf("transfer FLIP; scheme flipp;"));
+    const wordList allowed({"APIC", "FLIP", "PIC"});
+
+    equal("given", readChoice(dict, "transfer", allowed), "FLIP");
+    equal
+    (
+        "default", readChoiceOrDefault(dict, "absent", "APIC", allowed), "APIC"
+    );
+    contains
+    (
+        errorIn([&]() { readChoice(dict, "scheme", allowed); }),
+        {"keyword scheme", "flipp", "APIC", "FLIP", "PIC", "constant/properties"}
+    );
+    contains
+    (
+        errorIn([&]() { readChoice(dict, "absent", allowed); }), {"absent"}
+    );
+}
+
+
+TEST_CASE("dictionaryEntries: misspelt keywords")
+{
+    const wordList known({"shapeFunction", "maxCo", "sortInterval", "smoothing"});
+
+    checkKeywords(dictOf("maxCo 0.5; smoothing no;"), known, true);
+
+    // Lines count in files
+    const temporaryDirectory directory;
+    const fileName path(directory.path/"fvSolution");
+    std::ofstream(path) << "maxCo 0.5;\nsmothing no;\n";
+    IFstream is(path);
+    const dictionary misspelt(is);
+    contains
+    (
+        errorIn([&]() { checkKeywords(misspelt, known, true); }),
+        {"smothing", "line 2", "Did you mean smoothing?", "shapeFunction", path}
+    );
+    contains
+    (
+        errorIn([&]() { checkKeywords(dictOf("ShapeFunctoin linear;"), known, true); }),
+        {"ShapeFunctoin", "Did you mean shapeFunction?"}
+    );
+
+    // Nothing is near
+    const std::string far
+    (
+        errorIn([&]() { checkKeywords(dictOf("turbulence on;"), known, true); })
+    );
+    contains(far, {"turbulence", "Known keywords: shapeFunction"});
+    equal
+    (
+        "suggestions for a word that is far from all",
+        label(far.find("Did you mean") != std::string::npos), 0
+    );
+
+    // A warning only
+    bool raised = false;
+    try
+    {
+        checkKeywords(dictOf("smothing no;"), known, false);
+    }
+    catch (const error&)
+    {
+        raised = true;
+    }
+    equal("errors when not strict", label(raised), 0);
+}
+
+// ************************************************************************* //
