@@ -5,7 +5,8 @@ License
 
 #include "FlatOutput.H"
 #include "dictionaryEntries.H"
-#include "dimensionedScalar.H"
+#include "Switch.H"
+#include "ITstream.H"
 #include "stringOps.H"
 #include <algorithm>
 #include <sstream>
@@ -37,6 +38,53 @@ Foam::label editDistance(const std::string& a, const std::string& b)
         }
     }
     return row[b.size()];
+}
+
+
+//- A number, after its name and dimensions if these are given. By hand,
+//  because dimensionedScalar aborts with a stack trace.
+Foam::scalar readQuantity
+(
+    const Foam::dictionary& dict,
+    const Foam::word& keyword,
+    const Foam::dimensionSet& dims
+)
+{
+    using namespace Foam;
+
+    ITstream& is = dict.lookup(keyword);
+    const string found(is.toString());
+
+    token t;
+    auto next = [&]()
+    {
+        if (is.eof() || is.nRemainingTokens() == 0) t = token();
+        else is >> t;
+    };
+    next();
+    if (t.isWord() && is.nRemainingTokens()) next();
+
+    if (t.isPunctuation() && t.pToken() == token::BEGIN_SQR)
+    {
+        is.putBack(t);
+        const dimensionSet given(is);
+        if (given != dims)
+        {
+            FatalIOErrorInFunction(dict)
+                << "keyword " << keyword << " has the dimensions " << given
+                << '.' << nl << "    Allowed: " << dims << " or none"
+                << exit(FatalIOError);
+        }
+        next();
+    }
+    if (!t.isNumber())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value " << found << '.' << nl
+            << "    Allowed: a number, with the dimensions " << dims
+            << " or none" << exit(FatalIOError);
+    }
+    return t.number();
 }
 
 
@@ -90,7 +138,7 @@ Foam::scalar Foam::mpm::readBounded
     const bool upperIncluded
 )
 {
-    const scalar value = dimensionedScalar(keyword, dims, dict).value();
+    const scalar value = readQuantity(dict, keyword, dims);
     checkBounds
     (
         dict, keyword, value, lower, upper, lowerIncluded, upperIncluded
@@ -128,6 +176,28 @@ Foam::scalar Foam::mpm::readPositive
 )
 {
     return readBounded(dict, keyword, dims, 0, GREAT);
+}
+
+
+bool Foam::mpm::readSwitchOrDefault
+(
+    const dictionary& dict,
+    const word& keyword,
+    const bool defaultValue
+)
+{
+    if (!dict.found(keyword)) return defaultValue;
+
+    const word value(dict.get<word>(keyword));
+    const Switch result(value, true);
+
+    if (!result.valid())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value " << value << '.' << nl
+            << "    Allowed: yes, no" << exit(FatalIOError);
+    }
+    return result;
 }
 
 

@@ -182,6 +182,30 @@ Foam::mpm::materialPointCloud::materialPointCloud
     order_(grid),
     stepCount_(0)
 {
+    if (U_.dimensions() != dimVelocity)
+    {
+        FatalErrorInFunction
+            << "file " << U_.objectPath() << ": keyword dimensions is "
+            << U_.dimensions() << '.' << nl << "    Allowed: " << dimVelocity
+            << exit(FatalError);
+    }
+
+    for (const fvPatchVectorField& Up : U_.boundaryField())
+    {
+        if (Up.type() == "inletOutlet" && !mesh.foundObject<surfaceScalarField>("phi"))
+        {
+            phi_.reset
+            (
+                new surfaceScalarField
+                (
+                    IOobject("phi", mesh.time().timeName(), mesh),
+                    mesh,
+                    dimensionedScalar(dimVolume/dimTime, Zero)
+                )
+            );
+        }
+    }
+
     // decomposed lagrangian files need the base points of all ranks
     (void)mesh.tetBasePtIs();
 

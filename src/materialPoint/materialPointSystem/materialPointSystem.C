@@ -18,10 +18,10 @@ License
 void Foam::mpm::materialPointSystem::readSettings()
 {
     settings_.strictKeywords =
-        control_.lookupOrDefault<Switch>("strictKeywords", true);
-    settings_.smoothing = control_.lookupOrDefault<Switch>("smoothing", true);
+        readSwitchOrDefault(control_, "strictKeywords", true);
+    settings_.smoothing = readSwitchOrDefault(control_, "smoothing", true);
     settings_.volumeCorrection =
-        control_.lookupOrDefault<Switch>("volumeCorrection", true);
+        readSwitchOrDefault(control_, "volumeCorrection", true);
     settings_.sortInterval = label
     (
         readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
@@ -109,6 +109,11 @@ void Foam::mpm::materialPointSystem::readGravity()
 
 void Foam::mpm::materialPointSystem::makeClouds()
 {
+    if (!properties_.found("clouds"))
+    {
+        // The misspelt keyword is named, if there is one
+        checkKeywords(properties_, {"clouds", "water"}, true);
+    }
     const wordList names(properties_.get<wordList>("clouds"));
 
     if (names.empty())
@@ -131,6 +136,10 @@ void Foam::mpm::materialPointSystem::makeClouds()
                 << "keyword clouds: unknown cloud " << names[i] << nl
                 << "    Valid names: water" << exit(FatalIOError);
         }
+        waterCloud::checkDictionary
+        (
+            properties_.subDict(names[i]), settings_.strictKeywords
+        );
         water_ = new waterCloud
         (
             names[i],

@@ -118,7 +118,7 @@ Foam::mpm::waterCloud::waterCloud
     ),
     minPressure_
     (
-        dict.lookupOrDefault<Switch>("tensionCutOff", false) ? 0 : -VGREAT
+        readSwitchOrDefault(dict, "tensionCutOff", false) ? 0 : -VGREAT
     ),
     p_
     (
@@ -138,6 +138,18 @@ Foam::mpm::waterCloud::waterCloud
     correctionWork_(0),
     minJ_(1)
 {
+    if (!fluid_.autoSoundSpeed()) select();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::waterCloud::checkDictionary
+(
+    const dictionary& dict,
+    const bool strictKeywords
+)
+{
     checkKeywords
     (
         dict,
@@ -149,13 +161,10 @@ Foam::mpm::waterCloud::waterCloud
             "flipDampingRate",
             "tensionCutOff"
         },
-        control.strictKeywords
+        strictKeywords
     );
-    if (!fluid_.autoSoundSpeed()) select();
 }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::mpm::waterCloud::findSoundSpeed
 (
