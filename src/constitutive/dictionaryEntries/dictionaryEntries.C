@@ -271,13 +271,13 @@ void Foam::mpm::checkKeywords
         if (strict)
         {
             FatalIOErrorInFunction(dict)
-                << message.str() << nl << "    (strictKeywords no; in the"
+                << message.str().c_str() << nl << "    (strictKeywords no; in the"
                 << " sub-dictionary MPM of system/fvSolution turns this into"
                 << " a warning)" << exit(FatalIOError);
         }
         else
         {
-            IOWarningInFunction(dict) << message.str() << endl;
+            IOWarningInFunction(dict) << message.str().c_str() << endl;
         }
     }
 }

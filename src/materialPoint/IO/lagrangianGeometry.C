@@ -28,7 +28,9 @@ void Foam::mpm::lagrangianGeometry::findTetrahedron
     const cell& faces = mesh_.cells()[celli];
     const point& centre = mesh_.cellCentres()[celli];
 
-    // The face whose pyramid holds the point
+    // The face whose pyramid holds the point; any face will do for a position
+    // that is not finite, which is written for inspection
+    facei = faces[0];
     scalar largest = -GREAT;
     for (const label f : faces)
     {

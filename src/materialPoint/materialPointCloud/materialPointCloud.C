@@ -180,7 +180,8 @@ Foam::mpm::materialPointCloud::materialPointCloud
     ),
     boundary_(grid, U_),
     order_(grid),
-    stepCount_(0)
+    stepCount_(0),
+    expectedPoints_(-1)
 {
     if (U_.dimensions() != dimVelocity)
     {

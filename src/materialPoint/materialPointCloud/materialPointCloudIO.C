@@ -214,7 +214,7 @@ void Foam::mpm::materialPointCloud::readPoints()
     }
 
     const label total = returnReduce(n, sumOp<label>());
-    if (!total)
+    if (!total && expectedPoints_ != 0)
     {
         FatalErrorInFunction
             << "cloud " << name() << " has no points in "
@@ -277,6 +277,7 @@ void Foam::mpm::materialPointCloud::readPoints()
 void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
 {
     stepCount_ = dict.lookupOrDefault<label>("stepCount", 0);
+    expectedPoints_ = dict.get<label>("nPoints");
     counters_.left = dict.lookupOrDefault<label>("left", 0);
     counters_.leftMass = dict.lookupOrDefault<scalar>("leftMass", 0);
     counters_.wallContacts = dict.lookupOrDefault<label>("wallContacts", 0);

@@ -400,7 +400,7 @@ void Foam::mpm::materialPointSystem::reportEffects() const
     Info<< nl << "Memory" << nl;
     for (const materialPointCloud& cloud : clouds_)
     {
-        const scalar n = cloud.globalSize();
+        const scalar n = max(label(1), cloud.globalSize());
         scalar points = cloud.pointMemory(), nodes = cloud.nodeMemory();
         reduce(points, sumOp<scalar>());
         reduce(nodes, sumOp<scalar>());
@@ -414,7 +414,9 @@ void Foam::mpm::materialPointSystem::reportEffects() const
 
 void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
 {
+    cost_.start("time step");
     const scalar limit = limitDeltaT(limiter_);
+    cost_.stop();
 
     if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
     {
@@ -524,17 +526,17 @@ void Foam::mpm::materialPointSystem::relocate()
 
 void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
 {
+    cost_.start("time step");
     string found;
     for (const materialPointCloud& cloud : clouds_)
     {
         if (found.empty()) found = cloud.firstNonFinite();
     }
+    const bool any = returnReduce(!found.empty(), orOp<bool>());
+    cost_.stop();
 
-    if (returnReduce(!found.empty(), orOp<bool>()))
+    if (any)
     {
-        // For inspection; without its state file no run restarts from it
-        runTime.writeNow();
-
         List<string> all(Pstream::nProcs());
         all[Pstream::myProcNo()] = found;
         Pstream::gatherList(all);
@@ -545,6 +547,12 @@ void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
                 if (found.empty()) found = text;
             }
         }
+        Info<< "--> non-finite value at time " << runTime.timeName() << ": "
+            << found.c_str() << nl << endl;
+
+        // For inspection; without its state file no run restarts from it
+        runTime.writeNow();
+
         FatalErrorInFunction
             << "non-finite value at time " << runTime.timeName() << " (step "
             << clouds_[0].stepCount() << "): " << found.c_str() << nl
