@@ -118,6 +118,49 @@ TEST_CASE("dictionaryEntries: bounds")
 }
 
 
+TEST_CASE("dictionaryEntries: values that are no numbers")
+{
+    const dictionary dict
+    (
+        dictOf
+        (
+            "heavy much; unset nan; list (1 2); empty; text \"1000\";"
+            " half rho [1 -3 0 0 0 0 0];"
+        )
+    );
+    auto refusal = [&](const word& keyword)
+    {
+        return errorIn([&]() { readPositive(dict, keyword, dimDensity); });
+    };
+    const std::string file("constant/properties");
+    contains(refusal("heavy"), {"keyword heavy", "much", "Allowed: a number", file});
+    contains(refusal("unset"), {"keyword unset", "nan", "Allowed: a number", file});
+    contains(refusal("list"), {"keyword list", "1 2", "Allowed: a number", file});
+    contains(refusal("empty"), {"keyword empty", "Allowed: a number", file});
+    contains(refusal("text"), {"keyword text", "1000", "Allowed: a number", file});
+    contains
+    (
+        refusal("half"),
+        {"keyword half", "[1 -3 0 0 0 0 0]", "Allowed: a number", file}
+    );
+}
+
+
+TEST_CASE("dictionaryEntries: switches")
+{
+    const dictionary dict(dictOf("a yes; b off; c true; d maybe;"));
+    equal("yes", label(readSwitchOrDefault(dict, "a", false)), 1);
+    equal("off", label(readSwitchOrDefault(dict, "b", true)), 0);
+    equal("true", label(readSwitchOrDefault(dict, "c", false)), 1);
+    equal("default", label(readSwitchOrDefault(dict, "absent", true)), 1);
+    contains
+    (
+        errorIn([&]() { readSwitchOrDefault(dict, "d", true); }),
+        {"keyword d", "maybe", "Allowed: yes, no", "constant/properties"}
+    );
+}
+
+
 TEST_CASE("dictionaryEntries: defaults")
 {
     const dictionary dict(dictOf("given 3; bad 30;"));

@@ -46,7 +46,7 @@ waterScene::waterScene
     properties_ = dictionary(is);
 
     materialPointCloud::settings settings{};
-    settings.sortInterval = 10;
+    settings.sortInterval = 1;
     settings.smoothing = true;
     settings.volumeCorrection = true;
     settings.strictKeywords = true;

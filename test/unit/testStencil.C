@@ -1,0 +1,435 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "figures.H"
+#include "stencil.H"
+#include "label.H"
+#include <array>
+#include <cmath>
+#include <random>
+
+using namespace Foam;
+using namespace Foam::mpm;
+
+namespace
+{
+
+//- The functions by their definitions, and the weights that make gradients
+struct linearDefinition
+{
+    static scalar N(const scalar d) { return std::max(0.0, 1 - std::abs(d)); }
+
+    //- A point on a node belongs to the cell above it
+    static scalar g(const scalar d)
+    {
+        return d < -1 || d >= 1 ? 0 : d < 0 ? 1 : -1;
+    }
+};
+
+struct quadraticDefinition
+{
+    static scalar N(const scalar x)
+    {
+        const scalar d = std::abs(x);
+        return d < 0.5 ? 0.75 - d*d : d < 1.5 ? 0.5*(1.5 - d)*(1.5 - d) : 0;
+    }
+    static scalar g(const scalar d) { return -4*d*N(d); }
+};
+
+struct cubicDefinition
+{
+    static scalar N(const scalar x)
+    {
+        const scalar d = std::abs(x);
+        return
+            d < 1 ? 0.5*d*d*d - d*d + 2.0/3
+          : d < 2 ? (2 - d)*(2 - d)*(2 - d)/6
+          : 0;
+    }
+    static scalar g(const scalar d) { return -3*d*N(d); }
+};
+
+template<class Shape> struct definitionOf;
+template<> struct definitionOf<linear> { typedef linearDefinition type; };
+template<> struct definitionOf<quadraticBSpline>
+{
+    typedef quadraticDefinition type;
+};
+template<> struct definitionOf<cubicBSpline> { typedef cubicDefinition type; };
+
+
+//- A batch of points in one cell, what they give, and dense sums over the
+//  tile, one node after the other
+template<class Shape, int dim>
+struct batch
+{
+    typedef typename definitionOf<Shape>::type definition;
+
+    static constexpr int T = Shape::tileWidth;
+    static constexpr int size = (dim == 2 ? T*T : T*T*T);
+
+    lanes f[dim];
+    nodeVector value[nLanes];
+    nodeVector slope[dim][nLanes];
+    nodeVector flux[dim][nLanes];
+    nodeVector tile[size];
+
+    explicit batch(std::mt19937& random)
+    {
+        std::uniform_real_distribution<scalar> fraction(0, 1), any(-1, 1);
+
+        // Also the ends and the middle of the cell
+        const std::array<scalar, 5> special
+            ({0, 0.5, std::nextafter(0.5, 0), std::nextafter(1.0, 0), 0.25});
+
+        for (int d = 0; d < dim; ++d)
+        {
+            for (int l = 0; l < nLanes; ++l)
+            {
+                f[d][l] =
+                    random() % 3 ? fraction(random) : special[random() % 5];
+            }
+        }
+        auto fill = [&](nodeVector& v)
+        {
+            for (int c = 0; c < 4; ++c) v[c] = any(random);
+        };
+        for (nodeVector& v : value) fill(v);
+        for (auto& direction : slope) for (nodeVector& v : direction) fill(v);
+        for (auto& direction : flux) for (nodeVector& v : direction) fill(v);
+        for (nodeVector& v : tile) fill(v);
+    }
+
+    //- Coordinate of a node of the tile in cells from the corner of the cell
+    static scalar x(const int t, const int d)
+    {
+        int i = t;
+        for (int k = 0; k < d; ++k) i /= T;
+        return i % T + Shape::tileStart;
+    }
+
+    scalar N(const int l, const int t) const
+    {
+        scalar n = 1;
+        for (int d = 0; d < dim; ++d) n *= definition::N(f[d][l] - x(t, d));
+        return n;
+    }
+
+    scalar gradient(const int l, const int t, const int along) const
+    {
+        scalar g = 1;
+        for (int d = 0; d < dim; ++d)
+        {
+            const scalar s = f[d][l] - x(t, d);
+            g *= d == along ? definition::g(s) : definition::N(s);
+        }
+        return g;
+    }
+};
+
+
+//- Largest difference of two tiles
+template<int size>
+scalar difference(const nodeVector (&a)[size], const nodeVector (&b)[size])
+{
+    scalar largest = 0;
+    for (int t = 0; t < size; ++t)
+    for (int c = 0; c < 4; ++c)
+    {
+        const scalar d = std::abs(a[t][c] - b[t][c]);
+        if (!(d <= largest)) largest = d;
+    }
+    return largest;
+}
+
+
+//- Call op(name, shape, dimension) for all combinations
+template<class Op>
+void forAllStencils(const Op& op)
+{
+    auto both = [&](auto shape)
+    {
+        typedef decltype(shape) Shape;
+        op(std::string(Shape::name) + " 2D", shape, std::integral_constant<int, 2>());
+        op(std::string(Shape::name) + " 3D", shape, std::integral_constant<int, 3>());
+    };
+    both(linear());
+    both(quadraticBSpline());
+    both(cubicBSpline());
+}
+
+const int nTrials = 200;
+
+} // End anonymous namespace
+
+
+TEST_CASE("stencil: scatter against the dense sum")
+{
+    forAllStencils([](const std::string& name, auto shape, auto d)
+    {
+        typedef decltype(shape) Shape;
+        constexpr int dim = decltype(d)::value;
+        std::mt19937 random(1);
+        scalar plain = 0, sloped = 0, force = 0;
+
+        for (int trial = 0; trial < nTrials; ++trial)
+        {
+            batch<Shape, dim> b(random);
+            const stencil<Shape, dim> s(b.f);
+            const label n = 1 + trial % nLanes;
+
+            auto dense = [&](const bool withSlope, const bool withFlux)
+            {
+                batch<Shape, dim> sum(b);
+                for (int l = 0; l < n; ++l)
+                for (int t = 0; t < b.size; ++t)
+                {
+                    nodeVector v = b.value[l];
+                    for (int k = 0; k < dim && withSlope; ++k)
+                    {
+                        v += (b.x(t, k) - b.f[k][l])*b.slope[k][l];
+                    }
+                    sum.tile[t] += b.N(l, t)*v;
+                    for (int k = 0; k < dim && withFlux; ++k)
+                    {
+                        sum.tile[t] += b.gradient(l, t, k)*b.flux[k][l];
+                    }
+                }
+                return sum;
+            };
+
+            batch<Shape, dim> found(b);
+            s.scatter(found.tile, n, b.value);
+            plain = std::max
+                (plain, difference(found.tile, dense(false, false).tile));
+
+            found = b;
+            s.scatter(found.tile, n, b.value, b.slope);
+            sloped = std::max
+                (sloped, difference(found.tile, dense(true, false).tile));
+
+            found = b;
+            s.scatterForce(found.tile, n, b.value, found.slope, b.flux);
+            force = std::max
+                (force, difference(found.tile, dense(true, true).tile));
+        }
+        atMost(name + ": values", plain, 1e-14);
+        atMost(name + ": values and slopes", sloped, 1e-14);
+        atMost(name + ": values, slopes and fluxes", force, 2e-14);
+    });
+}
+
+
+TEST_CASE("stencil: gather against the dense sum")
+{
+    forAllStencils([](const std::string& name, auto shape, auto d)
+    {
+        typedef decltype(shape) Shape;
+        constexpr int dim = decltype(d)::value;
+        std::mt19937 random(2);
+        scalar values = 0, gradients = 0;
+
+        for (int trial = 0; trial < nTrials; ++trial)
+        {
+            batch<Shape, dim> b(random);
+            const stencil<Shape, dim> s(b.f);
+            lanes value[dim + 1], gradient[dim + 1][dim];
+            s.template gather<dim + 1>(b.tile, value, gradient);
+
+            for (int l = 0; l < nLanes; ++l)
+            for (int c = 0; c < dim + 1; ++c)
+            {
+                scalar sum = 0;
+                for (int t = 0; t < b.size; ++t) sum += b.N(l, t)*b.tile[t][c];
+                values = std::max(values, std::abs(value[c][l] - sum));
+
+                for (int k = 0; k < dim; ++k)
+                {
+                    scalar slope = 0;
+                    for (int t = 0; t < b.size; ++t)
+                    {
+                        slope += b.gradient(l, t, k)*b.tile[t][c];
+                    }
+                    gradients = std::max
+                        (gradients, std::abs(gradient[c][k][l] - slope));
+                }
+            }
+
+            // Fewer gradients, same numbers
+            lanes some[dim + 1], slopes[dim + 1][dim];
+            s.template gather<dim>(b.tile, some, slopes);
+            for (int l = 0; l < nLanes; ++l)
+            {
+                for (int c = 0; c < dim + 1; ++c)
+                {
+                    values = std::max(values, std::abs(some[c][l] - value[c][l]));
+                }
+                for (int c = 0; c < dim; ++c)
+                for (int k = 0; k < dim; ++k)
+                {
+                    gradients = std::max
+                    (
+                        gradients, std::abs(slopes[c][k][l] - gradient[c][k][l])
+                    );
+                }
+            }
+        }
+        atMost(name + ": values", values, 1e-14);
+        atMost(name + ": gradients", gradients, 2e-14);
+    });
+}
+
+
+TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
+{
+    forAllStencils([](const std::string& name, auto shape, auto d)
+    {
+        typedef decltype(shape) Shape;
+        constexpr int dim = decltype(d)::value;
+        std::mt19937 random(3);
+        scalar sums = 0, forces = 0, moments = 0, virial = 0;
+
+        for (int trial = 0; trial < nTrials; ++trial)
+        {
+            batch<Shape, dim> b(random);
+            const stencil<Shape, dim> s(b.f);
+
+            batch<Shape, dim> found(b);
+            for (nodeVector& v : found.tile) v = nodeVector{};
+            s.scatter(found.tile, nLanes, b.value, b.slope);
+
+            batch<Shape, dim> force(b);
+            for (nodeVector& v : force.tile) v = nodeVector{};
+            s.scatterForce(force.tile, nLanes, b.value, force.slope, b.flux);
+
+            for (int c = 0; c < 4; ++c)
+            {
+                scalar sum = 0, forceSum = 0;
+                for (int l = 0; l < nLanes; ++l)
+                {
+                    sum -= b.value[l][c];
+                    forceSum -= b.value[l][c];
+                }
+                for (int t = 0; t < b.size; ++t)
+                {
+                    sum += found.tile[t][c];
+                    forceSum += force.tile[t][c];
+                }
+                sums = std::max(sums, std::abs(sum));
+                forces = std::max(forces, std::abs(forceSum));
+
+                // Sum of x_i of what the nodes get: that of the points and
+                // D times the slopes; the fluxes as they are
+                for (int k = 0; k < dim; ++k)
+                {
+                    scalar moment = 0, forceMoment = 0;
+                    for (int l = 0; l < nLanes; ++l)
+                    {
+                        const scalar f = b.f[k][l];
+                        const scalar D =
+                            Shape::gradientScale > 0
+                          ? 1/Shape::gradientScale : f*(1 - f);
+                        moment -= f*b.value[l][c] + D*b.slope[k][l][c];
+                        forceMoment -= b.flux[k][l][c];
+                    }
+                    for (int t = 0; t < b.size; ++t)
+                    {
+                        moment += b.x(t, k)*found.tile[t][c];
+                        forceMoment +=
+                            b.x(t, k)*(force.tile[t][c] - found.tile[t][c]);
+                    }
+                    moments = std::max(moments, std::abs(moment));
+                    virial = std::max(virial, std::abs(forceMoment));
+                }
+            }
+        }
+        atMost(name + ": sum over the nodes - sum over the points", sums, 1e-14);
+        atMost(name + ": the same with fluxes", forces, 5e-14);
+        atMost(name + ": first moment", moments, 2e-14);
+        atMost(name + ": first moment of the fluxes", virial, 1e-13);
+    });
+}
+
+
+TEST_CASE("stencil: gather reproduces linear fields")
+{
+    forAllStencils([](const std::string& name, auto shape, auto d)
+    {
+        typedef decltype(shape) Shape;
+        constexpr int dim = decltype(d)::value;
+        std::mt19937 random(4);
+        std::uniform_real_distribution<scalar> any(-1, 1);
+        scalar values = 0, gradients = 0;
+
+        for (int trial = 0; trial < nTrials; ++trial)
+        {
+            batch<Shape, dim> b(random);
+            const stencil<Shape, dim> s(b.f);
+
+            scalar a[dim + 1], A[dim + 1][dim];
+            for (int c = 0; c < dim + 1; ++c)
+            {
+                a[c] = any(random);
+                for (int k = 0; k < dim; ++k) A[c][k] = any(random);
+            }
+            for (int t = 0; t < b.size; ++t)
+            for (int c = 0; c < dim + 1; ++c)
+            {
+                b.tile[t][c] = a[c];
+                for (int k = 0; k < dim; ++k) b.tile[t][c] += A[c][k]*b.x(t, k);
+            }
+
+            lanes value[dim + 1], gradient[dim + 1][dim];
+            s.template gather<dim + 1>(b.tile, value, gradient);
+            for (int l = 0; l < nLanes; ++l)
+            for (int c = 0; c < dim + 1; ++c)
+            {
+                scalar expected = a[c];
+                for (int k = 0; k < dim; ++k)
+                {
+                    expected += A[c][k]*b.f[k][l];
+                    gradients = std::max
+                        (gradients, std::abs(gradient[c][k][l] - A[c][k]));
+                }
+                values = std::max(values, std::abs(value[c][l] - expected));
+            }
+        }
+        atMost(name + ": values", values, 1e-14);
+        atMost(name + ": gradients", gradients, 5e-14);
+    });
+}
+
+
+TEST_CASE("lanes: records, masks and sums")
+{
+    const lanes a{1, 2, 3, 4}, b{5, 6, 7, 8}, c{9, 10, 11, 12}, e{13, 14, 15, 16};
+    nodeVector record[nLanes];
+    toRecords(a, b, c, e, record);
+    label wrong = 0;
+    for (int l = 0; l < nLanes; ++l)
+    {
+        wrong += record[l][0] != a[l] || record[l][1] != b[l];
+        wrong += record[l][2] != c[l] || record[l][3] != e[l];
+    }
+    equal("wrong records", wrong, 0);
+
+    wrong = 0;
+    for (int n = 0; n <= nLanes; ++n)
+    {
+        scalar stored[nLanes] = {-1, -1, -1, -1};
+        storeLanes(stored, a, firstLanes(n));
+        for (int l = 0; l < nLanes; ++l)
+        {
+            wrong += stored[l] != (l < n ? a[l] : -1);
+        }
+        wrong += laneBits(firstLanes(n)) != (1u << n) - 1;
+    }
+    equal("wrong masks", wrong, 0);
+    atMost("sum", std::abs(sumLanes(a) - 10), 0);
+    atMost("sum of the smaller", std::abs(sumLanes(minLanes(a, allLanes(2.5))) - 8), 0);
+    atMost("sum of the larger", std::abs(sumLanes(maxLanes(a, allLanes(2.5))) - 12), 0);
+}
+
+// ************************************************************************* //
