@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from mpmfoam.case import Case
+from mpmfoam.postProcessing import readDat
 from mpmfoam.runLog import readLog
 
 AXES = "xyz"
@@ -103,7 +104,8 @@ class Setup:
     sides    side (xmin, ...) -> (type of patch, condition of U.water); a side
              that is not named belongs to the patch walls
     wall     condition of U.water on the patch walls
-    points   per cell and direction"""
+    points   per cell and direction
+    energy   with the function object materialPointEnergy, each 10 steps"""
     cells: tuple
     h: object
     regions: dict
@@ -119,6 +121,7 @@ class Setup:
     control: dict = field(default_factory=dict)
     placement: dict = field(default_factory=dict)
     functions: dict = field(default_factory=dict)
+    energy: bool = True
 
     def __post_init__(self):
         if self.g is None:
@@ -188,8 +191,14 @@ class Setup:
             "writeCompression": "off", "timeFormat": "general",
             "timePrecision": 6, "runTimeModifiable": True}
         merge(control, self.control)
-        if self.functions:
-            control["functions"] = self.functions
+        functions = dict(self.functions)
+        if self.energy:
+            functions["energy"] = {
+                "type": "materialPointEnergy", "cloud": "water",
+                "libs": '("libmpmFunctionObjects.so")',
+                "writeControl": "timeStep", "writeInterval": 10}
+        if functions:
+            control["functions"] = functions
         return control
 
     def setMaterialPointsDict(self):
@@ -489,13 +498,24 @@ class RunningCase:
         return {key: float(value) for key, value in re.findall(
             r"(\w+)\s+([-+0-9.e]+);", found[1])}
 
-    def energy(self, time_=None):
-        """Kinetic, potential (from the lower corner of the mesh), work of
-        the stresses less that of the corrections"""
-        points, state = self.points(time_), self.state(time_)
-        floor = -points.totalMass*np.dot(self.setup.g, self.setup.bounds[0])
-        return (points.kinetic, points.potential(self.setup.g) - floor,
-                state.get("stressWork", 0) - state.get("correctionWork", 0))
+    def mechanicalEnergy(self, time_=None):
+        """Kinetic and potential energy; this from the mesh's lower corner"""
+        points = self.points(time_)
+        return points.kinetic, points.potential(self.setup.g) - self.floor
+
+    @property
+    def floor(self):
+        """Potential energy of all points in the mesh's lower corner"""
+        return -self.points("0").totalMass*np.dot(
+            self.setup.g, self.setup.bounds[0])
+
+    def energies(self):
+        """postProcessing/energy as columns by name"""
+        path = next((self.path/"postProcessing"/"energy").rglob("energy.dat"))
+        names = [line for line in path.read_text().splitlines()
+                 if line.startswith("#")][-1].strip("# ").split()
+        rows = readDat(self.path, "energy", "energy.dat")
+        return dict(zip([n.lower() for n in names], rows.T))
 
     def timesByStep(self):
         """Name of the time directory by number of the step. Names can differ

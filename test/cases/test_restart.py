@@ -2,8 +2,11 @@
 is lost by the end of a run, whatever its cause."""
 
 import os
+import re
+import resource
 import shutil
 import signal
+import subprocess
 import time
 
 import pytest
@@ -279,6 +282,39 @@ def testHalfWrittenOnOneRank(tmp_path, figures, reference, damage):
         (case.path/f"processor{i}"/f"{broken}.incomplete").is_dir()
         for i in range(2)))
     figures.equal("runs to its end", case.log.finished, True)
+
+
+def limitFileSize(bytes_):
+    """For a child process: no file grows beyond this, as on a full disk"""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_, bytes_))
+    return limit
+
+
+def testFullDisk(tmp_path, figures, reference):
+    """Writing fails: a clear error, the last whole time kept"""
+    case = anew(reference, tmp_path/"case")
+    case.change(control={"endTime": 0.02})
+    case.solve()
+    kept = case.times
+    size = max(p.stat().st_size
+               for p in (case.path/kept[-1]/CLOUD).iterdir())
+    case.change(control={"endTime": 1e6})
+    process = subprocess.run(
+        ["mpmFoam"], cwd=case.path, capture_output=True, text=True,
+        timeout=60, preexec_fn=limitFileSize(size//2),
+        env={**os.environ, "PWD": str(case.path)})
+    text = process.stdout + process.stderr
+    figures.equal("exit status", process.returncode, 1)
+    found = re.search(
+        r"FOAM FATAL(?s:.*?)((error in IOstream|cannot write) \S+)", text)
+    figures.contains("message", found and found[1],
+                     "error in IOstream <file>, or cannot write <file>")
+    figures.equal("times written before it with files that differ", [
+        k for k, t in case.timesByStep().items() if t in kept
+        and differing(case, reference, k)], [])
+    continued(case, reference, figures)
 
 
 def testNoWholeTime(tmp_path, figures):
