@@ -106,6 +106,28 @@ void checkShape()
 
     atMost
     (
+        name + ": weights of the whole tile against those in reach",
+        worst<Shape>
+        (
+            [](const scalar f, const tileWeights<Shape>& t)
+            {
+                scalar w[T], q[T], g[T];
+                Shape::tileWeights(f, w, q, g);
+                scalar e = 0;
+                for (int i = 0; i < T; ++i)
+                {
+                    e = std::max(e, std::abs(w[i] - t.w[i]));
+                    e = std::max(e, std::abs(q[i] - t.q[i]));
+                    e = std::max(e, std::abs(g[i] - t.g[i]));
+                }
+                return e;
+            }
+        ),
+        2e-15
+    );
+
+    atMost
+    (
         name + ": sum N - 1",
         worst<Shape>
         (
