@@ -32,7 +32,6 @@ template<class Shape, int dim>
 void Foam::mpm::gridVolume::sumVolumes(nodeField<scalar>& volume) const
 {
     constexpr int T = Shape::tileWidth;
-    constexpr int W = Shape::width;
     const label* cell = cloud_.points().cell();
 
     for (label p = 0; p < cloud_.size();)
@@ -42,28 +41,22 @@ void Foam::mpm::gridVolume::sumVolumes(nodeField<scalar>& volume) const
 
         for (; p < cloud_.size() && cell[p] == runCell; ++p)
         {
-            scalar w[dim][W], q[W], g[W];
-            scalar* t = tile;
-            label step = 1;
+            scalar w[dim][T], q[T], g[T];
             for (label d = 0; d < dim; ++d)
             {
                 const scalar xi =
                     (cloud_.x(d)[p] - grid_.cells().origin(d))
                    /grid_.cells().spacing(d);
-                const scalar f = xi - std::floor(xi);
-                const label upper = (Shape::nodeCentred && f >= 0.5);
-
-                Shape::weights(f - upper, w[d], q, g);
-                t += upper*step;
-                step *= T;
+                Shape::tileWeights(xi - std::floor(xi), w[d], q, g);
             }
 
             const scalar V = cloud_.volume(p);
-            for (int k = 0; k < (dim == 3 ? W : 1); ++k)
-            for (int j = 0; j < W; ++j)
+            for (int k = 0; k < (dim == 3 ? T : 1); ++k)
+            for (int j = 0; j < T; ++j)
             {
                 const scalar Vw = V*w[1][j]*(dim == 3 ? w[dim - 1][k] : 1);
-                for (int i = 0; i < W; ++i) t[i + T*(j + T*k)] += Vw*w[0][i];
+                scalar* row = tile + T*(j + T*k);
+                for (int i = 0; i < T; ++i) row[i] += Vw*w[0][i];
             }
         }
 
