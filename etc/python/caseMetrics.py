@@ -57,10 +57,15 @@ def fromEnergy(case, times):
     for time in times or [energy[-1, 0]]:
         out[f"energyRatio_t{time:g}"] = np.interp(
             time, energy[:, 0], mechanical)/initial
-    # What is in the points and what the stresses took from them; only an
-    # instability lets it grow
-    out["energyGrowthMax"] = (energy[:, TOTAL] - energy[0, TOTAL]).max() \
-        / abs(initial)
+    # What is in the points and what the stresses took from them falls, by
+    # what the transfer dissipates; only an instability lets it climb. Also
+    # without the work that the volume correction put in.
+    total = energy[:, TOTAL]
+    for name, course in [("", total),
+                         ("LessCorrection", total - energy[:, CORRECTION_WORK])]:
+        climb = (course - np.minimum.accumulate(course)).max()
+        out[f"energyGrowthMax{name}"] = climb/abs(initial)
+    out["energyTotalEnd"] = total[-1]/initial
     return out
 
 

@@ -41,5 +41,6 @@ ax.plot(time, 1e3*amplitude, label="mpmFoam")
 ax.plot(time, 1e3*start*np.cos(theory*time), "--", color=style.REFERENCE,
         lw=0.9, label="linear theory, no damping")
 ax.set(xlabel="time [s]", ylabel="amplitude of mode 1 [mm]")
-ax.legend(loc="lower right", ncols=2)
+ax.set_ylim(top=16)
+ax.legend(loc="upper right", ncols=2)
 style.save(fig, "standingWave.png")

@@ -183,12 +183,16 @@ def commit():
 
 
 def build(application):
-    """A digest of an application and of our libraries that it loads"""
+    """A digest of an application and of our libraries beside those it loads
+    (function objects are loaded later)"""
     path = shutil.which(application)
     if not path:
         return "none"
     loaded = subprocess.run(["ldd", path], capture_output=True, text=True)
-    files = [path] + sorted(re.findall(r"=> (\S*/libmpm\S+)", loaded.stdout))
+    libraries = {library for found in re.findall(
+        r"=> (\S*/libmpm\S+)", loaded.stdout)
+        for library in Path(found).parent.glob("libmpm*.so")}
+    files = [path, *sorted(libraries)]
     digest = hashlib.sha256()
     for file in files:
         digest.update(Path(file).read_bytes())

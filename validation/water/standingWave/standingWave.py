@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """Standing wave on three grids, five periods: error of the period and order of
-the numerical damping."""
+the numerical damping.
+
+The outline cuts whole points: at h = 0.05, where they are 12.5 mm apart, the
+wave starts higher than asked (amplitudeStart). Rates and periods are fitted, so
+that this matters to them only as far as the wave is not linear."""
 
 import sys
 from pathlib import Path
@@ -48,11 +52,12 @@ def evaluate(done, results):
         t, heights = gauge[:, 0], gauge[:, 1:-1]
         x = (np.arange(heights.shape[1]) + 0.5)*LENGTH/heights.shape[1]
         a = wave.modeAmplitude(heights, x, LENGTH)
-        w, rate, _, rest = wave.fit(t, a, omega)
+        w, rate, start, rest = wave.fit(t, a, omega)
         h = run.about["h"]
         rates[h] = rate - viscous
         out[f"periodError_{name}"] = 2*np.pi/w/period - 1
         out[f"dampingRate_{name}"] = rate
+        out[f"amplitudeStart_{name}"] = start
         out[f"fitResidual_{name}"] = rest
         out[f"meanLevelChange_{name}"] = gauge[-1, -1]/gauge[0, -1] - 1
         columns["run"] += [name]*len(t)
@@ -72,7 +77,8 @@ def evaluate(done, results):
     axes[0].plot(t, 1e3*AMPLITUDE*np.cos(omega*t), "--", lw=0.8,
                  color=style.REFERENCE, label="linear theory")
     axes[0].set(xlabel="time [s]", ylabel="amplitude of mode 1 [mm]")
-    axes[0].legend(ncols=2, loc="lower right")
+    axes[0].set_ylim(top=20)
+    axes[0].legend(ncols=4, loc="upper right")
     h = np.array(spacings)
     shown = np.array([abs(rates[s]) for s in spacings])
     axes[1].loglog(1e3*h, shown, "o-", label="mpmFoam")
