@@ -358,6 +358,19 @@ def _command(command, ranks):
     return ["mpirun", "-np", str(ranks), *command, "-parallel"]
 
 
+def _killAll(process):
+    """A process and the ranks it started, which share its session"""
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            session = int(stat.read_text().rsplit(")", 1)[1].split()[3])
+            if session == process.pid:
+                os.kill(int(stat.parent.name), signal.SIGKILL)
+        except (OSError, ValueError):
+            # Ended meanwhile
+            continue
+    process.wait()
+
+
 class RunningCase:
     """A case directory and the applications that run in it"""
 
@@ -378,8 +391,7 @@ class RunningCase:
             try:
                 process.wait(TIMEOUT)
             except BaseException:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
+                _killAll(process)
                 raise
         result = Result(process.returncode, log.read_text(errors="replace"))
         if check and result.status != 0:
@@ -395,6 +407,7 @@ class RunningCase:
             return subprocess.Popen(
                 command, cwd=self.path, stdout=out,
                 stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                start_new_session=True,
                 env={**os.environ, "PWD": str(self.path)})
 
     def prepare(self):
@@ -444,14 +457,13 @@ class RunningCase:
         try:
             return process.wait(limit)
         except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+            _killAll(process)
             return None
 
     def waitForTime(self, process, time_, limit=60):
         """Until the log of mpmFoam has come to a time"""
-        end = time.time() + limit
-        while time.time() < end:
+        end = time.monotonic() + limit
+        while time.monotonic() < end:
             text = (self.path/"log.mpmFoam").read_text(errors="replace")
             times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
             if times and float(times[-1]) >= time_:
@@ -460,7 +472,7 @@ class RunningCase:
                 raise CaseError(f"{self.path}: mpmFoam ended early:\n"
                                 + text[-2000:])
             time.sleep(0.02)
-        process.kill()
+        _killAll(process)
         raise CaseError(f"{self.path}: no time {time_} in {limit} s")
 
     # What is on disk

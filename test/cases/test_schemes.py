@@ -27,8 +27,10 @@ def fallen(figures, case, least):
                    fastest/(2*np.sqrt(9.81*0.2)), 1)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("transfer", TRANSFERS)
+# APIC with linear is refused (test_badInput): it blows up at free surfaces
+@pytest.mark.parametrize("transfer, shape", [
+    (transfer, shape) for transfer in TRANSFERS for shape in SHAPES
+    if (transfer, shape) != ("APIC", "linear")])
 @pytest.mark.parametrize("dim", [2, 3])
 def testSchemes(tmp_path, figures, dim, transfer, shape):
     setup = damBreak(dim, h=0.02 if dim == 2 else 0.025,
