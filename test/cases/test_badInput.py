@@ -323,6 +323,11 @@ CASES = [
         "file": PROPERTIES, "keyword": r"\btransfer\b", "value": r"\bAPIK\b",
         "allowed": r"(?s)Valid.*" + words("APIC", "FLIP", "PIC", "XPIC")},
         setup=water(transfer="APIK")),
+    Bad("affineWithLinear", {
+        "file": PROPERTIES, "keyword": r"\btransfer\b", "value": r"\bAPIC\b",
+        "allowed": r"(?s)Allowed.*" + words("FLIP", "PIC", "XPIC")},
+        setup=lambda s: (s.mpm.update(shapeFunction="linear"),
+                         s.water.update(transfer="APIC"))),
     Bad("unknownShapeFunction", {
         "file": SOLUTION, "keyword": "shapeFunction",
         "value": r"\bquadratic\b",

@@ -112,7 +112,8 @@ void Foam::mpm::materialPointSystem::makeClouds()
     if (!properties_.found("clouds"))
     {
         // The misspelt keyword is named, if there is one
-        checkKeywords(properties_, {"clouds", "water"}, true);
+        const wordList entries({"clouds", "water"});
+        checkKeywords(properties_, entries, true);
     }
     const wordList names(properties_.get<wordList>("clouds"));
 
@@ -642,7 +643,7 @@ void Foam::mpm::materialPointSystem::reportCosts() const
     {
         std::ostringstream os;
         os << "    " << std::left << std::setw(28) << name << std::right
-           << std::fixed << std::setprecision(2) << std::setw(10) << seconds
+           << std::fixed << std::setprecision(4) << std::setw(10) << seconds
            << std::setw(8) << std::setprecision(1) << 100*seconds/total
            << std::setw(10) << 1e9*seconds*nRanks/pointSteps;
         Info<< os.str().c_str() << nl;

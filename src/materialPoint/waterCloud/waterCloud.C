@@ -34,11 +34,13 @@ void Foam::mpm::waterCloud::select()
     }
     if (transfer_->affine() && grid_.shapeFunction() == linear::name)
     {
-        IOWarningInFunction(dict_)
-            << "transfer " << transfer_->type() << " with shapeFunction linear"
-            << " is unstable at free surfaces: its gradient does not vanish"
-            << " where a node has almost no mass." << nl
-            << "    Use FLIP, PIC or XPIC, or a spline." << endl;
+        // The gradient of the linear function does not vanish where a node has
+        // almost no mass: a free surface blows up within some 100 steps
+        FatalIOErrorInFunction(dict_)
+            << "keyword transfer is " << transfer_->type()
+            << ", which is unstable at free surfaces with shapeFunction linear."
+            << nl << "    Allowed: FLIP, PIC, XPIC, or a B-spline for"
+            << " fvSolution/MPM/shapeFunction" << exit(FatalIOError);
     }
     if (transfer_->filtered())
     {
