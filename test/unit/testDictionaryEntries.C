@@ -58,8 +58,15 @@ TEST_CASE("dictionaryEntries: values with and without dimensions")
         )
     );
     atMost("plain", mag(readPositive(dict, "plain", dimDensity) - 1000), 0);
-    atMost("name, dimensions", mag(readPositive(dict, "full", dimDensity) - 1001), 0);
-    atMost("dimensions", mag(readPositive(dict, "nameless", dimDensity) - 1002), 0);
+    atMost
+    (
+        "name, dimensions", mag(readPositive(dict, "full", dimDensity) - 1001),
+        0
+    );
+    atMost
+    (
+        "dimensions", mag(readPositive(dict, "nameless", dimDensity) - 1002), 0
+    );
 
     contains
     (
@@ -133,11 +140,23 @@ TEST_CASE("dictionaryEntries: values that are no numbers")
         return errorIn([&]() { readPositive(dict, keyword, dimDensity); });
     };
     const std::string file("constant/properties");
-    contains(refusal("heavy"), {"keyword heavy", "much", "Allowed: a number", file});
-    contains(refusal("unset"), {"keyword unset", "nan", "Allowed: a number", file});
-    contains(refusal("list"), {"keyword list", "1 2", "Allowed: a number", file});
+    contains
+    (
+        refusal("heavy"), {"keyword heavy", "much", "Allowed: a number", file}
+    );
+    contains
+    (
+        refusal("unset"), {"keyword unset", "nan", "Allowed: a number", file}
+    );
+    contains
+    (
+        refusal("list"), {"keyword list", "1 2", "Allowed: a number", file}
+    );
     contains(refusal("empty"), {"keyword empty", "Allowed: a number", file});
-    contains(refusal("text"), {"keyword text", "1000", "Allowed: a number", file});
+    contains
+    (
+        refusal("text"), {"keyword text", "1000", "Allowed: a number", file}
+    );
     contains
     (
         refusal("half"),
@@ -198,7 +217,10 @@ TEST_CASE("dictionaryEntries: choices")
     contains
     (
         errorIn([&]() { readChoice(dict, "scheme", allowed); }),
-        {"keyword scheme", "flipp", "APIC", "FLIP", "PIC", "constant/properties"}
+        {
+            "keyword scheme", "flipp", "APIC", "FLIP", "PIC",
+            "constant/properties"
+        }
     );
     contains
     (
@@ -209,7 +231,10 @@ TEST_CASE("dictionaryEntries: choices")
 
 TEST_CASE("dictionaryEntries: misspelt keywords")
 {
-    const wordList known({"shapeFunction", "maxCo", "sortInterval", "smoothing"});
+    const wordList known
+    ({
+        "shapeFunction", "maxCo", "sortInterval", "smoothing"
+    });
 
     checkKeywords(dictOf("maxCo 0.5; smoothing no;"), known, true);
 
@@ -226,7 +251,13 @@ TEST_CASE("dictionaryEntries: misspelt keywords")
     );
     contains
     (
-        errorIn([&]() { checkKeywords(dictOf("ShapeFunctoin linear;"), known, true); }),
+        errorIn
+        (
+            [&]()
+            {
+                checkKeywords(dictOf("ShapeFunctoin linear;"), known, true);
+            }
+        ),
         {"ShapeFunctoin", "Did you mean shapeFunction?"}
     );
 

@@ -101,7 +101,10 @@ TEST_CASE("backgroundGrid: cells and nodes of the box")
     testMesh test(plan);
     const backgroundGrid grid(test.mesh(), dictionary());
 
-    equal("shape function by default", grid.shapeFunction(), "quadraticBSpline");
+    equal
+    (
+        "shape function by default", grid.shapeFunction(), "quadraticBSpline"
+    );
 
     label wrong = 0, own = 0;
     scalar off = 0;

@@ -221,13 +221,20 @@ TEST_CASE("nodeBoundary: control volumes sum to the mesh")
     {
         meshPlan plan = plan2D(8, 6);
         nameHull(plan);
-        plan.present = [](int i, int j, int) { return !(i >= 2 && i < 5 && j < 3); };
+        plan.present = [](int i, int j, int)
+        {
+            return !(i >= 2 && i < 5 && j < 3);
+        };
         plan.type = {{"left", "cyclic"}, {"right", "cyclic"}};
         cyclic["cyclic with an obstacle"] = plan;
 
         plan = plan3D(3, 4, 2);
         nameHull(plan);
-        for (const char* side : {"left", "right", "bottom", "top", "back", "front"})
+        for
+        (
+            const char* side
+          : {"left", "right", "bottom", "top", "back", "front"}
+        )
         {
             plan.type[side] = "cyclic";
         }
@@ -424,19 +431,37 @@ TEST_CASE("nodeBoundary: mirror images at a step")
     const std::string odd(" signs -1 -1 mass 1 shift 0 0");
 
     // Concave corner at 4, 0: floor and face of the step
-    equal("concave: behind the step", s.image({3, 0, 0}, {5, 1, 0}), "3 1" + oddX);
-    equal("concave: below the floor", s.image({3, 0, 0}, {4, -1, 0}), "4 1" + oddY);
+    equal
+    (
+        "concave: behind the step", s.image({3, 0, 0}, {5, 1, 0}), "3 1" + oddX
+    );
+    equal
+    (
+        "concave: below the floor", s.image({3, 0, 0}, {4, -1, 0}), "4 1" + oddY
+    );
     equal("concave: both", s.image({3, 0, 0}, {5, -1, 0}), "3 1" + odd);
 
     // Convex corner at 4, 3: the node 5, 2 is seen from three sides
-    equal("convex: from the front", s.image({3, 2, 0}, {5, 2, 0}), "3 2" + oddX);
+    equal
+    (
+        "convex: from the front", s.image({3, 2, 0}, {5, 2, 0}), "3 2" + oddX
+    );
     equal("convex: from above", s.image({4, 3, 0}, {5, 2, 0}), "5 4" + oddY);
-    equal("convex: from the diagonal", s.image({3, 3, 0}, {5, 2, 0}), "4 3" + even);
+    equal
+    (
+        "convex: from the diagonal", s.image({3, 3, 0}, {5, 2, 0}), "4 3" + even
+    );
 
     // Nodes on the step's faces are seen as they are
     equal("convex: the corner", s.image({3, 3, 0}, {4, 3, 0}), "4 3" + even);
-    equal("convex: top of the step", s.image({3, 3, 0}, {5, 3, 0}), "5 3" + even);
-    equal("convex: face of the step", s.image({3, 3, 0}, {4, 2, 0}), "4 2" + even);
+    equal
+    (
+        "convex: top of the step", s.image({3, 3, 0}, {5, 3, 0}), "5 3" + even
+    );
+    equal
+    (
+        "convex: face of the step", s.image({3, 3, 0}, {4, 2, 0}), "4 2" + even
+    );
 }
 
 
@@ -445,7 +470,10 @@ TEST_CASE("nodeBoundary: mirror images at the lip of a gate")
     // Two cells thick, 3 <= x <= 5, above y = 2: the node 4, 3 inside of it
     // belongs to three walls
     meshPlan plan = plan2D(9, 8);
-    plan.present = [](int i, int j, int) { return !(i >= 3 && i < 5 && j >= 2); };
+    plan.present = [](int i, int j, int)
+    {
+        return !(i >= 3 && i < 5 && j >= 2);
+    };
     const scene s(plan);
 
     equal
@@ -518,7 +546,10 @@ TEST_CASE("nodeBoundary: openings")
     equal("beyond the right", label(s.boundary->beyondOpening(s.at(6, 2))), 1);
     equal("beyond the top", label(s.boundary->beyondOpening(s.at(3, 5))), 1);
     equal("beyond the left", label(s.boundary->beyondOpening(s.at(-1, 2))), 0);
-    equal("beyond the bottom", label(s.boundary->beyondOpening(s.at(3, -1))), 0);
+    equal
+    (
+        "beyond the bottom", label(s.boundary->beyondOpening(s.at(3, -1))), 0
+    );
 }
 
 

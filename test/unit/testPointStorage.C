@@ -40,7 +40,11 @@ pointStorage numbered(const label nDim, const label n)
 }
 
 //- Entries that do not belong to the points with these numbers
-label wrongEntries(const pointStorage& points, const std::vector<label>& numbers)
+label wrongEntries
+(
+    const pointStorage& points,
+    const std::vector<label>& numbers
+)
 {
     if (points.size() != label(numbers.size())) return -1;
 
@@ -106,7 +110,11 @@ TEST_CASE("pointStorage: resize")
     equal("values of new points that are not zero", nonZero, 0);
 
     points.resize(5);
-    equal("wrong entries of the old points", wrongEntries(points, {0, 1, 2, 3, 4}), 0);
+    equal
+    (
+        "wrong entries of the old points",
+        wrongEntries(points, {0, 1, 2, 3, 4}), 0
+    );
 
     // What was cut off does not come back
     points.resize(2);
@@ -136,7 +144,10 @@ TEST_CASE("pointStorage: reorder")
             identity[p] = p;
         }
         points.reorder(back);
-        equal("wrong entries after the inverse", wrongEntries(points, identity), 0);
+        equal
+        (
+            "wrong entries after the inverse", wrongEntries(points, identity), 0
+        );
     }
 }
 

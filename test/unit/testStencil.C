@@ -152,8 +152,9 @@ void forAllStencils(const Op& op)
     auto both = [&](auto shape)
     {
         typedef decltype(shape) Shape;
-        op(std::string(Shape::name) + " 2D", shape, std::integral_constant<int, 2>());
-        op(std::string(Shape::name) + " 3D", shape, std::integral_constant<int, 3>());
+        const std::string name(Shape::name);
+        op(name + " 2D", shape, std::integral_constant<int, 2>());
+        op(name + " 3D", shape, std::integral_constant<int, 3>());
     };
     both(linear());
     both(quadraticBSpline());
@@ -264,7 +265,8 @@ TEST_CASE("stencil: gather against the dense sum")
             {
                 for (int c = 0; c < dim + 1; ++c)
                 {
-                    values = std::max(values, std::abs(some[c][l] - value[c][l]));
+                    values = std::max
+                        (values, std::abs(some[c][l] - value[c][l]));
                 }
                 for (int c = 0; c < dim; ++c)
                 for (int k = 0; k < dim; ++k)
@@ -345,7 +347,10 @@ TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
                 }
             }
         }
-        atMost(name + ": sum over the nodes - sum over the points", sums, 1e-14);
+        atMost
+        (
+            name + ": sum over the nodes - sum over the points", sums, 1e-14
+        );
         atMost(name + ": the same with fluxes", forces, 5e-14);
         atMost(name + ": first moment", moments, 2e-14);
         atMost(name + ": first moment of the fluxes", virial, 1e-13);
@@ -404,7 +409,8 @@ TEST_CASE("stencil: gather reproduces linear fields")
 
 TEST_CASE("lanes: records, masks and sums")
 {
-    const lanes a{1, 2, 3, 4}, b{5, 6, 7, 8}, c{9, 10, 11, 12}, e{13, 14, 15, 16};
+    const lanes a{1, 2, 3, 4}, b{5, 6, 7, 8};
+    const lanes c{9, 10, 11, 12}, e{13, 14, 15, 16};
     nodeVector record[nLanes];
     toRecords(a, b, c, e, record);
     label wrong = 0;
@@ -428,8 +434,18 @@ TEST_CASE("lanes: records, masks and sums")
     }
     equal("wrong masks", wrong, 0);
     atMost("sum", std::abs(sumLanes(a) - 10), 0);
-    atMost("sum of the smaller", std::abs(sumLanes(minLanes(a, allLanes(2.5))) - 8), 0);
-    atMost("sum of the larger", std::abs(sumLanes(maxLanes(a, allLanes(2.5))) - 12), 0);
+    atMost
+    (
+        "sum of the smaller",
+        std::abs(sumLanes(minLanes(a, allLanes(2.5))) - 8),
+        0
+    );
+    atMost
+    (
+        "sum of the larger",
+        std::abs(sumLanes(maxLanes(a, allLanes(2.5))) - 12),
+        0
+    );
 }
 
 // ************************************************************************* //

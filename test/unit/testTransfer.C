@@ -127,7 +127,8 @@ TEST_CASE("transfer: a full domain has a saturation of one")
                 {
                     if (inverse[i] == 0) continue;
                     ++nodes;
-                    worst = max(worst, mag(s.cloud().nodes().saturation[i] - 1));
+                    worst = max
+                        (worst, mag(s.cloud().nodes().saturation[i] - 1));
                 }
                 const std::string name = shape + ' ' + std::to_string(dim)
                   + "D, " + std::to_string(n) + " points per direction: ";
@@ -216,7 +217,10 @@ TEST_CASE("transfer: walls mirror the points")
         meshPlan plan = box(2, 5, 4, 1);
         typeMap types;
         for (const std::string& side : sides) types[side] = type.first;
-        waterScene s(plan, vector(Zero), types, "quadraticBSpline", "transfer FLIP;");
+        waterScene s
+        (
+            plan, vector(Zero), types, "quadraticBSpline", "transfer FLIP;"
+        );
         fillRandomly(s, false);
         s.cloud().particlesToGrid();
 
@@ -508,7 +512,11 @@ TEST_CASE("transfer: points take up a linear field of the grid")
                         gradient = max
                         (
                             gradient,
-                            mag(column(s, "velocityGradient", c*dim + d)[p] - A[c][d])
+                            mag
+                            (
+                                column(s, "velocityGradient", c*dim + d)[p]
+                              - A[c][d]
+                            )
                         );
                     }
                 }

@@ -156,8 +156,15 @@ TEST_CASE("weaklyCompressibleNewtonian: the sound speed set later")
         "B", mag(water.pressure(scalar(0.5)) - 1000*400/7.0*127)/1e7, 1e-15
     );
 
-    equal("auto by default", label(fluidOf("rho0 1; mu 0;").autoSoundSpeed()), 1);
-    equal("viscous without viscosity", label(fluidOf("rho0 1; mu 0;").viscous()), 0);
+    equal
+    (
+        "auto by default", label(fluidOf("rho0 1; mu 0;").autoSoundSpeed()), 1
+    );
+    equal
+    (
+        "viscous without viscosity",
+        label(fluidOf("rho0 1; mu 0;").viscous()), 0
+    );
 }
 
 
