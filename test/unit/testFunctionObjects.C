@@ -626,6 +626,21 @@ TEST_CASE("function objects: a line at the start and for each write")
     atMost("time of row 1", mag(table[1][0] - 0.25), 0);
     atMost("time of row 2", mag(table[2][0] - 0.5), 0);
 
+    // The run begins again: a new file, the old one beside it
+    energy.clear();
+    s.test().time().setTime(scalar(0), 0);
+    make(s, "type materialPointEnergy;");
+    equal("rows of a second run", label(rows(s, "energy").size()), 1);
+    equal
+    (
+        "the file of the first one is kept",
+        label
+        (
+            isFile(s.test().path()/"postProcessing/test/0/energy.dat.bak")
+        ),
+        1
+    );
+
     // Nothing before its own start time
     waterScene later(tank2D(4, 4), down);
     make(later, "type materialPointEnergy; timeStart 0.1;");

@@ -6,6 +6,7 @@ License
 #include "cloudTimeSeries.H"
 #include "dictionaryEntries.H"
 #include "FlatOutput.H"
+#include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -59,10 +60,19 @@ void Foam::mpm::cloudTimeSeries::openFile()
     columns_ = names;
     if (!writeToFile()) return;
 
-    filePtr_ =
-        first
-      ? createFile(fileName_)
-      : createFile(fileName_, mesh_.time().value());
+    // A run that begins again at the same time begins the file again. (OpenFOAM
+    // would write another one beside it, and readers find the old one.)
+    const scalar start = first ? startTime_ : mesh_.time().value();
+    const fileName directory
+    (
+        baseFileDir()/prefix_/
+        Time::timeName
+        (
+            useUserTime_ ? mesh_.time().timeToUserTime(start) : start
+        )
+    );
+    mvBak(directory/(fileName_ + ".dat"));
+    filePtr_ = createFile(fileName_, start);
 
     OFstream& os = file();
     writeHeader(os, type() + " of the cloud " + cloudName_);
