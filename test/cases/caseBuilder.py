@@ -13,6 +13,7 @@ import copy
 import itertools
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -399,6 +400,11 @@ class RunningCase:
                 f"{' '.join(command)} in {self.path} ended with "
                 f"{result.status}:\n" + result.text[-3000:])
         return result
+
+    def clone(self, path):
+        """A copy of the case and of its setup"""
+        shutil.copytree(self.path, path)
+        return RunningCase(path, copy.deepcopy(self.setup))
 
     def start(self, application="mpmFoam", ranks=1):
         """Starts an application and returns its process"""

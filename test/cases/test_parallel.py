@@ -8,15 +8,10 @@ import pytest
 
 from mpmfoam import foamFile
 
-from caseBuilder import RunningCase, Setup, box, damBreak
+from caseBuilder import Setup, box, damBreak
 
 STEPS = 100
 BOUND = 1e-10
-
-
-def clone(case, path):
-    shutil.copytree(case.path, path)
-    return RunningCase(path, case.setup)
 
 
 def differences(points, reference):
@@ -111,7 +106,7 @@ def serial(tmp_path_factory):
         if key not in done:
             path = tmp_path_factory.mktemp("serial")/"case"
             case = makeSetup().write(path).prepare()
-            start = clone(case, path.parent/"start")
+            start = case.clone(path.parent/"start")
             case.solve()
             done[key] = start, case
         return done[key]
@@ -123,7 +118,7 @@ def serial(tmp_path_factory):
     (2, 2, 1), (4, 1, 1)], ids=name)
 def testEqualsSerial2D(tmp_path, figures, serial, how):
     start, whole = serial(2, lambda: withObstacle(2))
-    case = clone(start, tmp_path/"case")
+    case = start.clone(tmp_path/"case")
     ranks = decompose(case, how)
     case.solve(ranks=ranks)
     agree(figures, case, whole)
@@ -132,7 +127,7 @@ def testEqualsSerial2D(tmp_path, figures, serial, how):
 @pytest.mark.parametrize("how", [(2, 1, 1), ragged, (1, 2, 2)], ids=name)
 def testEqualsSerial3D(tmp_path, figures, serial, how):
     start, whole = serial(3, lambda: withObstacle(3))
-    case = clone(start, tmp_path/"case")
+    case = start.clone(tmp_path/"case")
     ranks = decompose(case, how)
     case.solve(ranks=ranks)
     agree(figures, case, whole)
@@ -144,7 +139,7 @@ def testSchemesEqualSerial(tmp_path, figures, transfer, shape):
     setup = withObstacle(2, water={"transfer": transfer},
                          mpm={"shapeFunction": shape})
     whole = setup.write(tmp_path/"serial").prepare()
-    case = clone(whole, tmp_path/"parallel")
+    case = whole.clone(tmp_path/"parallel")
     whole.solve()
     decompose(case, ragged)
     case.solve(ranks=2)
@@ -154,7 +149,7 @@ def testSchemesEqualSerial(tmp_path, figures, transfer, shape):
 def testNoSlipEqualsSerial(tmp_path, figures):
     setup = withObstacle(2, wall="noSlip", fluid={"mu": 1})
     whole = setup.write(tmp_path/"serial").prepare()
-    case = clone(whole, tmp_path/"parallel")
+    case = whole.clone(tmp_path/"parallel")
     whole.solve()
     decompose(case, ragged)
     case.solve(ranks=2)
@@ -166,7 +161,7 @@ def testNoSlipEqualsSerial(tmp_path, figures):
     ids=name)
 def testCyclicEqualsSerial(tmp_path, figures, serial, how):
     start, whole = serial("cyclic", drop)
-    case = clone(start, tmp_path/"case")
+    case = start.clone(tmp_path/"case")
     ranks = decompose(case, how)
     case.solve(ranks=ranks)
     agree(figures, case, whole)
@@ -225,7 +220,7 @@ def testThereAndBack(tmp_path, figures):
     """Serial, parallel, serial again: the run goes on where it was"""
     setup = withObstacle(2).steps(40)
     whole = setup.write(tmp_path/"serial").prepare()
-    case = clone(whole, tmp_path/"case")
+    case = whole.clone(tmp_path/"case")
     for _ in range(3):
         whole.solve()
 
