@@ -307,7 +307,7 @@ public:
         grid.exchange().sum(pressure);
 
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
-        const label T = Shape::tileWidth;
+        const label T = Shape::reachWidth;
 
         c.alpha_ = dimensionedScalar(dimless, Zero);
         c.p_ = dimensionedScalar(dimPressure, Zero);
@@ -322,13 +322,13 @@ public:
             scalar alpha = 0, mass = 0, pV = 0, V = 0;
             vector momentum(Zero);
 
-            for (label t = 0; t < tile<Shape, dim>::size; ++t)
+            for (label t = 0; t < grid.reachSize(); ++t)
             {
                 scalar w = Shape::cellIntegral[t % T]
                    *Shape::cellIntegral[(t/T) % T];
                 if (dim == 3) w *= Shape::cellIntegral[t/(T*T)];
 
-                label i = cell + grid.tileOffset() + grid.tileNode(t);
+                label i = cell + grid.reachOffset() + grid.reachNode(t);
                 nodeVector sign{1, 1, 1, 1};
                 if (s >= 0)
                 {
