@@ -70,15 +70,18 @@ Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
 }
 
 
-void Foam::mpm::materialPointCloud::setTile(const label point)
+void Foam::mpm::materialPointCloud::setCell
+(
+    const label point,
+    const index3& i
+)
 {
     const lattice& cells = grid_.cells();
-    const label cell = points_.cell()[point];
+    const label cell = grid_.index(i);
     label part = 0;
 
     if (grid_.nodeCentred())
     {
-        const index3 i = grid_.coordinate(cell);
         for (label d = 0; d < grid_.nDim(); ++d)
         {
             // The same arithmetic as in the kernels
@@ -87,6 +90,7 @@ void Foam::mpm::materialPointCloud::setTile(const label point)
             if (xi >= i[d] + grid_.lower(d) + 0.5) part |= 1 << d;
         }
     }
+    points_.cell()[point] = cell;
     points_.tile()[point] = boundary_.tileOf(cell, part);
 }
 
@@ -144,7 +148,7 @@ void Foam::mpm::materialPointCloud::returnFromWall(const label point)
         points_.column(x_ + d)[point] =
             cells.origin(d) + (i + gap)*cells.spacing(d);
     }
-    points_.cell()[point] = grid_.index(clampTo);
+    setCell(point, clampTo);
     ++counters_.wallContacts;
 }
 
@@ -269,8 +273,7 @@ Foam::label Foam::mpm::materialPointCloud::addPoints
             points_.column(v_ + d)[first + i] = velocity[i][axis];
         }
         points_.column(id_)[first + i] = id[i];
-        points_.cell()[first + i] = grid_.boxCell(meshCell[i]);
-        setTile(first + i);
+        setCell(first + i, grid_.coordinate(grid_.boxCell(meshCell[i])));
     }
     return first;
 }
@@ -294,8 +297,19 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     std::vector<departure> departures;
     bool inactive = false;
 
-    for (const label p : movers_)
+    for (size_t m = 0; m < movers_.size(); ++m)
     {
+        const label p = movers_[m];
+
+        // Movers are too far apart for the processor to see them coming
+        if (m + 8 < movers_.size())
+        {
+            const label next = movers_[m + 8];
+            for (label d = 0; d < nDim; ++d) __builtin_prefetch(x(d) + next);
+            __builtin_prefetch(points_.cell() + next, 1);
+            __builtin_prefetch(points_.tile() + next, 1);
+        }
+
         bool finite = true;
         for (label d = 0; d < nDim; ++d)
         {
@@ -336,7 +350,6 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
             else
             {
                 returnFromWall(p);
-                setTile(p);
                 inactive = inactive || !order_.active(points_.cell()[p]);
             }
             continue;
@@ -373,8 +386,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 
         if (rank == Pstream::myProcNo())
         {
-            points_.cell()[p] = grid_.index(i);
-            setTile(p);
+            setCell(p, i);
             inactive = inactive || !order_.active(points_.cell()[p]);
         }
         else
@@ -433,8 +445,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
             {
                 points_.append(incoming.cdata() + k, 0);
                 const label p = points_.size() - 1;
-                points_.cell()[p] = grid_.index(boxCoordinate(p));
-                setTile(p);
+                setCell(p, boxCoordinate(p));
                 inactive = inactive || !order_.active(points_.cell()[p]);
             }
         }

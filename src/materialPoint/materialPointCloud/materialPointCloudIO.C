@@ -267,8 +267,7 @@ void Foam::mpm::materialPointCloud::readPoints()
                 << "    Were mesh or decomposition changed after"
                 << " setMaterialPoints?" << exit(FatalError);
         }
-        points_.cell()[p] = grid_.index(i);
-        setTile(p);
+        setCell(p, i);
     }
     findMaxSpeed();
     activate(false);
