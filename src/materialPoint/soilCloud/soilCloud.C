@@ -193,6 +193,8 @@ void Foam::mpm::soilCloud::setState
         }
     }
     soilPoints s(modelPoints(first, first + volume.size()));
+    List<scalarField> whole(nStress, scalarField(volume.size()));
+    forAll(whole, k) s.wholeStress[k] = whole[k].data();
     model_->initialise(grid_.nDim(), s);
 }
 
