@@ -118,21 +118,21 @@ void Foam::mpm::nodeBoundary::buildStencils
 )
 {
     const label nDim = grid_.nDim();
-    const label T = grid_.tileWidth();
-    const label tileSize = grid_.tileSize();
+    const label T = grid_.reachWidth();
+    const label reachSize = grid_.reachSize();
 
     stencilIndex_.setSize(grid_.nNodes(), -1);
     label nStencils = 0;
 
-    std::vector<label> target(tileSize);
-    std::vector<nodeVector> sign(tileSize), shift(tileSize);
+    std::vector<label> target(reachSize);
+    std::vector<nodeVector> sign(reachSize), shift(reachSize);
 
     forAll(side, celli)
     {
         const label cell = grid_.boxCell(celli);
         bool plain = true;
 
-        for (label t = 0; t < tileSize; ++t)
+        for (label t = 0; t < reachSize; ++t)
         {
             // Node relative to the lower corner of the cell, and on which
             // side of the cell it lies
@@ -141,7 +141,7 @@ void Foam::mpm::nodeBoundary::buildStencils
             for (label d = 0; d < 3; ++d)
             {
                 const bool solved = d < nDim;
-                o[d] = solved ? rest % T + grid_.tileStart() : 0;
+                o[d] = solved ? rest % T + grid_.reachStart() : 0;
                 rest /= T;
                 s[d] = o[d] < 0 ? -1 : o[d] > 1 ? 1 : 0;
             }
@@ -232,6 +232,95 @@ void Foam::mpm::nodeBoundary::buildStencils
             target_.insert(target_.end(), target.begin(), target.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
             shift_.insert(shift_.end(), shift.begin(), shift.end());
+        }
+    }
+}
+
+
+bool Foam::mpm::nodeBoundary::foldAlike
+(
+    const tileRecord& a,
+    const tileRecord& b
+) const
+{
+    if (a.stencil < 0 || b.stencil < 0) return a.stencil == b.stencil;
+
+    const label W = grid_.tileWidth();
+    const label R = grid_.reachWidth();
+    const label* targetA = targets(a.stencil) + a.offset;
+    const label* targetB = targets(b.stencil) + b.offset;
+    const nodeVector* signA = signs(a.stencil) + a.offset;
+    const nodeVector* signB = signs(b.stencil) + b.offset;
+    const nodeVector* shiftA = shifts(a.stencil) + a.offset;
+    const nodeVector* shiftB = shifts(b.stencil) + b.offset;
+
+    for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
+    for (label j = 0; j < W; ++j)
+    for (label i = 0; i < W; ++i)
+    {
+        const label t = i + R*(j + R*k);
+        if (targetA[t] != targetB[t]) return false;
+        for (label c = 0; c < 4; ++c)
+        {
+            if (signA[t][c] != signB[t][c]) return false;
+            if (shiftA[t][c] != shiftB[t][c]) return false;
+        }
+    }
+    return true;
+}
+
+
+void Foam::mpm::nodeBoundary::buildTiles()
+{
+    const label nDim = grid_.nDim();
+    const label R = grid_.reachWidth();
+    const label W = grid_.tileWidth();
+
+    nParts_ = grid_.nodeCentred() ? 1 << nDim : 1;
+    tileIndex_.setSize(nParts_*grid_.nNodes(), -1);
+
+    // The parts of cells around each origin
+    for (label node = 0; node < grid_.nNodes(); ++node)
+    {
+        const label firstHere = nTiles();
+
+        for (label part = 0; part < nParts_; ++part)
+        {
+            tileRecord tile{node, -1, 0, {0, 0, 0}};
+            label cell = node;
+            label reachStride = 1;
+            for (label d = 0; d < nDim; ++d)
+            {
+                const label upper = (part >> d) & 1;
+                cell -= upper*grid_.stride(d);
+                tile.first += grid_.tileStart()*grid_.stride(d);
+                tile.offset += reachStride
+                   *(upper + grid_.tileStart() - grid_.reachStart());
+                tile.origin[d] = grid_.coordinate(node)[d] + grid_.lower(d);
+                reachStride *= R;
+            }
+            if (cell < 0 || !grid_.ownCell(cell)) continue;
+
+            // Cells at a wall have parts that do not touch it
+            if (stencil(cell) >= 0)
+            {
+                const label* target = targets(stencil(cell)) + tile.offset;
+                bool plain = true;
+                for (label k = 0; k < (nDim == 3 ? W : 1); ++k)
+                for (label j = 0; j < W; ++j)
+                for (label i = 0; i < W; ++i)
+                {
+                    plain = plain
+                     && target[i + R*(j + R*k)]
+                     == tile.first + i + j*grid_.stride(1) + k*grid_.stride(2);
+                }
+                if (!plain) tile.stencil = stencil(cell);
+            }
+
+            label t = firstHere;
+            while (t < nTiles() && !foldAlike(tile, tiles_[t])) ++t;
+            if (t == nTiles()) tiles_.push_back(tile);
+            tileIndex_[nParts_*cell + part] = t;
         }
     }
 }
@@ -389,7 +478,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
 void Foam::mpm::nodeBoundary::buildControlVolumes()
 {
     const label nDim = grid_.nDim();
-    const label T = grid_.tileWidth();
+    const label T = grid_.reachWidth();
 
     inverseVolume_.assign(grid_.nNodes(), 0);
 
@@ -398,7 +487,7 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
         const label cell = grid_.boxCell(celli);
         const label s = stencil(cell);
 
-        for (label t = 0; t < grid_.tileSize(); ++t)
+        for (label t = 0; t < grid_.reachSize(); ++t)
         {
             scalar v = grid_.cells().cellVolume()
                *grid_.cellIntegral(t % T)*grid_.cellIntegral((t/T) % T);
@@ -406,7 +495,7 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
 
             const label node =
                 s < 0
-              ? cell + grid_.tileOffset() + grid_.tileNode(t)
+              ? cell + grid_.reachOffset() + grid_.reachNode(t)
               : targets(s)[t];
             inverseVolume_[node] += v;
         }
@@ -437,6 +526,7 @@ Foam::mpm::nodeBoundary::nodeBoundary
 
     findSides(U, side, wallVelocity);
     buildStencils(side, wallVelocity);
+    buildTiles();
     buildConstraints(side, wallVelocity);
     buildControlVolumes();
 
@@ -514,7 +604,9 @@ void Foam::mpm::nodeBoundary::constrain
 size_t Foam::mpm::nodeBoundary::memory() const
 {
     return
-        sizeof(label)*(stencilIndex_.size() + target_.size())
+        sizeof(label)
+       *(stencilIndex_.size() + target_.size() + tileIndex_.size())
+      + sizeof(tileRecord)*tiles_.size()
       + sizeof(nodeVector)*(sign_.size() + shift_.size())
       + sizeof(scalar)*inverseVolume_.size();
 }
