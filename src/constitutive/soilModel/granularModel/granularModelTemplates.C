@@ -86,7 +86,7 @@ bool Foam::mpm::granularModel::contactStep
 
             const scalar H = flow.ratio(dl, dH);
             const scalar residual = q - 3*G*dl - H*p;
-            scale = H*p/q;
+            scale = min(H*p/q, scalar(1));
             step.plasticContraction = plastic;
 
             if (mag(residual) <= tolerance*q || upper - lower <= 1e-15*farthest)
@@ -244,7 +244,14 @@ void Foam::mpm::granularModel::advance
             step.a = elasticity_.coefficient<L>(middle);
             step.limits = elasticity_.rangeAt<L>(middle);
 
-            carries = contactStep<Model, dim, L>(model, step);
+            if constexpr (Model::ownIntegrator)
+            {
+                carries = model.template integrate<dim, L>(step);
+            }
+            else
+            {
+                carries = contactStep<Model, dim, L>(model, step);
+            }
             if (carries)
             {
                 p = step.p;
