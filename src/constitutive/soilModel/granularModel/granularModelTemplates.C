@@ -69,6 +69,8 @@ bool Foam::mpm::granularModel::contactStep
 
     if (q > flow.ratio(0, dH)*p)
     {
+        flow.setDilatancy();
+
         // Beyond this even the softest elastic strain is used up
         const scalar farthest =
             std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
@@ -119,8 +121,9 @@ bool Foam::mpm::granularModel::contactStep
         if (q > H*p) scale = H*p/q;
     }
 
-    // Contact is lost where expansion leaves no pressure
-    if (step.contraction < 0)
+    // Contact is lost where expansion leaves no pressure; what rounding makes
+    // of a strain of constant volume is no expansion
+    if (step.contraction < -1e-9*std::sqrt(c2))
     {
         const scalar lost = step.plasticContraction - step.contraction;
         const scalar stored = (XStart - XRes)/step.a;
