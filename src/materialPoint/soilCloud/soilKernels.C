@@ -150,6 +150,13 @@ public:
             begin = end;
         }
         this->exchangeForces();
+        if (!c.nodes_.wallForce.empty())
+        {
+            // Before the pressure of the water adds to the forces: friction
+            // is of the effective stress
+            c.grid_.exchange().sum(c.nodes_.wallForce);
+            c.boundary_.addWallForces(c.nodes_.force, c.nodes_.wallForce);
+        }
         this->filter();
         c.cost_.stop();
     }
