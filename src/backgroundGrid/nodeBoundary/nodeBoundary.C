@@ -5,13 +5,15 @@ License
 
 #include "FlatOutput.H"
 #include "nodeBoundary.H"
+#include "frictionalFvPatchVectorField.H"
 #include "volFields.H"
 #include "localIOdictionary.H"
 #include "HashTable.H"
+#include "PstreamReduceOps.H"
 
 namespace
 {
-    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry"});
+    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry", "frictional"});
     const Foam::wordList fixedTypes({"noSlip", "fixedValue"});
     const Foam::wordList openTypes({"zeroGradient", "inletOutlet"});
     const Foam::wordList otherTypes
@@ -89,6 +91,15 @@ void Foam::mpm::nodeBoundary::findSides
             if (d < 0) continue;
 
             side[faceCells[i]][2*d + s] = kind;
+            if (isA<frictionalFvPatchVectorField>(Up))
+            {
+                friction_.set
+                (
+                    6*faceCells[i] + 2*d + s,
+                    refCast<const frictionalFvPatchVectorField>(Up)
+                   .coefficient()
+                );
+            }
             if (kind == open)
             {
                 beyondOpening_.insert
@@ -126,6 +137,8 @@ void Foam::mpm::nodeBoundary::buildStencils
 
     std::vector<label> target(reachSize);
     std::vector<nodeVector> sign(reachSize), shift(reachSize);
+    const bool anyFriction = returnReduce(!friction_.empty(), orOp<bool>());
+    std::vector<label> friction(anyFriction ? nDim*reachSize : 0);
 
     forAll(side, celli)
     {
@@ -148,6 +161,8 @@ void Foam::mpm::nodeBoundary::buildStencils
 
             nodeVector sg = ones();
             nodeVector sh{};
+            index3 wallSide;
+            wallSide = 0;
 
             for (label d = 0; d < nDim; ++d)
             {
@@ -157,6 +172,10 @@ void Foam::mpm::nodeBoundary::buildStencils
                 if (kind == slipWall || kind == fixedWall)
                 {
                     // Mirror about the wall
+                    if (friction_.found(6*celli + sideOf(d, s[d])))
+                    {
+                        wallSide[d] = s[d];
+                    }
                     o[d] = s[d] < 0 ? -o[d] : 2 - o[d];
                     if (kind == slipWall)
                     {
@@ -224,6 +243,15 @@ void Foam::mpm::nodeBoundary::buildStencils
             target[t] = node;
             sign[t] = sg;
             shift[t] = sh;
+
+            for (label d = 0; anyFriction && d < nDim; ++d)
+            {
+                // The node of the wall below the image
+                const label wall =
+                    node + ((wallSide[d] > 0) - o[d])*grid_.stride(d);
+                friction[nDim*t + d] =
+                    wallSide[d] ? 2*wall + (wallSide[d] > 0) : -1;
+            }
         }
 
         if (!plain)
@@ -232,6 +260,10 @@ void Foam::mpm::nodeBoundary::buildStencils
             target_.insert(target_.end(), target.begin(), target.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
             shift_.insert(shift_.end(), shift.begin(), shift.end());
+            frictionOf_.insert
+            (
+                frictionOf_.end(), friction.begin(), friction.end()
+            );
         }
     }
 }
@@ -339,6 +371,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
     // have one (number in slot 3)
     nodeField<packed<8>> walls(grid_.nNodes(), packed<8>{});
     nodeField<nodeVector> given(grid_.nNodes(), nodeVector{});
+    nodeField<packed<8>> friction(grid_.nNodes(), packed<8>{});
     bitSet candidates(grid_.nNodes());
 
     forAll(side, celli)
@@ -359,6 +392,8 @@ void Foam::mpm::nodeBoundary::buildConstraints
                     node += ((corner >> k) & 1)*grid_.stride(k);
                 }
                 walls[node][2*d + s] += 1;
+                const auto found = friction_.cfind(6*celli + 2*d + s);
+                if (found.found()) friction[node][2*d + s] += found.val();
                 if (kind == fixedWall)
                 {
                     nodeVector value = wallVelocity[6*celli + 2*d + s];
@@ -370,6 +405,10 @@ void Foam::mpm::nodeBoundary::buildConstraints
     }
     grid_.exchange().sum(walls);
     grid_.exchange().sum(given);
+    if (returnReduce(!friction_.empty(), orOp<bool>()))
+    {
+        grid_.exchange().sum(friction);
+    }
 
     DynamicList<label> slipNodes, fixedNodes;
 
@@ -386,6 +425,22 @@ void Foam::mpm::nodeBoundary::buildConstraints
             fixedNodes.append(node);
             fixedValue_.push_back(value);
             continue;
+        }
+
+        for (label i = 0; i < 2*nDim; ++i)
+        {
+            if (friction[node][i] > 0)
+            {
+                // The mean over the sides that meet here
+                frictionNodes_.push_back
+                (
+                    frictionNode
+                    {
+                        node, i/2, i % 2 ? 1 : -1,
+                        friction[node][i]/walls[node][i]
+                    }
+                );
+            }
         }
 
         // Is every cell around the node in the given orthants missing?
@@ -514,10 +569,12 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
 Foam::mpm::nodeBoundary::nodeBoundary
 (
     const backgroundGrid& grid,
-    const volVectorField& U
+    const volVectorField& U,
+    const cornerType corners
 )
 :
-    grid_(grid)
+    grid_(grid),
+    corners_(corners)
 {
     List<FixedList<sideType, 6>> side;
     HashTable<nodeVector, label, Hash<label>> wallVelocity;
@@ -531,6 +588,7 @@ Foam::mpm::nodeBoundary::nodeBoundary
     activeSlip_ = identity(slipNodes_.size());
     activeFixed_ = identity(fixedNodes_.size());
     activeCones_ = identity(label(cones_.size()));
+    activeFriction_ = identity(label(frictionNodes_.size()));
 }
 
 
@@ -553,6 +611,13 @@ void Foam::mpm::nodeBoundary::activate(const bitSet& active)
         if (active.test(cones_[i].node)) list.append(i);
     }
     activeCones_ = list;
+
+    list.clear();
+    for (label i = 0; i < label(frictionNodes_.size()); ++i)
+    {
+        if (active.test(frictionNodes_[i].node)) list.append(i);
+    }
+    activeFriction_ = list;
 }
 
 
@@ -584,7 +649,7 @@ void Foam::mpm::nodeBoundary::constrain
         nodeVector& v = velocity[c.node];
 
         bool into = true;
-        for (label d = 0; d < nDim; ++d)
+        for (label d = 0; corners_ == slipCorners && d < nDim; ++d)
         {
             into = into && (c.intoSolid[d] == 0 || v[d]*c.intoSolid[d] > 0);
         }
@@ -594,6 +659,55 @@ void Foam::mpm::nodeBoundary::constrain
             {
                 if (c.intoSolid[d] != 0) v[d] = 0;
             }
+        }
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::addWallForces
+(
+    const nodeField<nodeVector>& force,
+    nodeField<nodeVector>& wallForce
+) const
+{
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        wallForce[f.node][f.direction] +=
+            f.sign*force[f.node][f.direction];
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::applyFriction
+(
+    const nodeField<nodeVector>& wallForce,
+    const nodeField<nodeVector>& momentum,
+    const scalar deltaT,
+    nodeField<nodeVector>& velocity
+) const
+{
+    const label nDim = grid_.nDim();
+
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        const scalar m = momentum[f.node][nDim];
+        if (!(m > 0)) continue;
+
+        nodeVector& v = velocity[f.node];
+        scalar speedSqr = 0;
+        for (label d = 0; d < nDim; ++d)
+        {
+            if (d != f.direction) speedSqr += sqr(v[d]);
+        }
+        const scalar speed = std::sqrt(speedSqr);
+        const scalar lost = f.coefficient*deltaT/m
+           *max(scalar(0), wallForce[f.node][f.direction]);
+        const scalar kept = lost < speed ? 1 - lost/speed : 0;
+        for (label d = 0; d < nDim; ++d)
+        {
+            if (d != f.direction) v[d] *= kept;
         }
     }
 }
