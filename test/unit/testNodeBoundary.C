@@ -553,6 +553,100 @@ TEST_CASE("nodeBoundary: openings")
 }
 
 
+TEST_CASE("nodeBoundary: tiles fold their nodes as the cells of their points")
+{
+    for (int dim = 2; dim <= 3; ++dim)
+    {
+        for (const std::string& shape : shapes)
+        {
+            const scene s(stepPlan(dim == 3 ? 4 : 0), {}, shape);
+            const backgroundGrid& grid = *s.grid;
+            const label W = grid.tileWidth();
+            const label T = grid.reachWidth();
+            const label nParts = grid.nodeCentred() ? 1 << dim : 1;
+            label wrong = 0, descents = 0;
+
+            for (label i = 1; i < s.boundary->nTiles(); ++i)
+            {
+                label before = 0, here = 0;
+                for (label d = dim - 1; d >= 0; --d)
+                {
+                    before = 100*before + s.boundary->tile(i - 1).origin[d];
+                    here = 100*here + s.boundary->tile(i).origin[d];
+                }
+                descents += here < before;
+            }
+
+            forAll(grid.mesh().cellCentres(), celli)
+            {
+                const label cell = grid.boxCell(celli);
+                const label own = s.boundary->stencil(cell);
+
+                for (label part = 0; part < nParts; ++part)
+                {
+                    const nodeBoundary::tileRecord& tile =
+                        s.boundary->tile(s.boundary->tileOf(cell, part));
+
+                    for (label t = 0; t < W*W*(dim == 3 ? W : 1); ++t)
+                    {
+                        // The node from the lower corner of the cell, and its
+                        // place in the reach of the cell and of the tile
+                        label node = cell, plain = tile.first;
+                        label inCell = 0, inTile = tile.offset;
+                        label rest = t, step = 1;
+                        for (label d = 0; d < dim; ++d)
+                        {
+                            const label o = rest % W;
+                            const label fromCell =
+                                o + ((part >> d) & 1) + grid.tileStart();
+                            rest /= W;
+                            node += fromCell*grid.stride(d);
+                            plain += o*grid.stride(d);
+                            inCell += step*(fromCell - grid.reachStart());
+                            inTile += step*o;
+                            step *= T;
+                        }
+                        nodeVector sign{1, 1, 1, 1}, found(sign);
+                        label target = node, foundTarget = plain;
+                        if (own >= 0)
+                        {
+                            target = s.boundary->targets(own)[inCell];
+                            sign = s.boundary->signs(own)[inCell];
+                        }
+                        if (tile.stencil >= 0)
+                        {
+                            foundTarget =
+                                s.boundary->targets(tile.stencil)[inTile];
+                            found = s.boundary->signs(tile.stencil)[inTile];
+                        }
+                        wrong += node != plain || target != foundTarget;
+                        for (label c = 0; c < 4; ++c)
+                        {
+                            wrong += sign[c] != found[c];
+                        }
+                    }
+                }
+            }
+            const std::string name = shape + ' ' + std::to_string(dim) + "D: ";
+            equal(name + "nodes folded in another way", wrong, 0);
+            equal(name + "tiles out of order", descents, 0);
+        }
+    }
+
+    // Around the convex corner three cells: the two beside the step mirror
+    // its sides, the one across the corner folds the diagonal ghost
+    const scene s(stepPlan());
+    auto tileOf = [&](const int i, const int j, const label part)
+    {
+        return s.boundary->tileOf(s.at(i, j), part);
+    };
+    equal("corner: left and across", label(tileOf(3, 2, 3) == tileOf(3, 3, 1)), 0);
+    equal("corner: above and across", label(tileOf(4, 3, 0) == tileOf(3, 3, 1)), 0);
+    equal("flat wall: one tile", tileOf(1, 0, 1), tileOf(2, 0, 0));
+    equal("inside: one tile", tileOf(1, 1, 3), tileOf(2, 2, 0));
+}
+
+
 TEST_CASE("nodeBoundary: cyclic images of nodes")
 {
     meshPlan plan = plan2D(5, 4);
