@@ -504,17 +504,11 @@ class RunningCase:
         order = np.argsort(values["id"], kind="stable")
         return Points(**{f: v[order] for f, v in values.items()})
 
-    def state(self, time_=None):
-        """uniform/materialPoints of the cloud water: numbers by keyword"""
+    def state(self, time_=None, cloud="water"):
+        """uniform/materialPoints of a cloud: numbers by keyword"""
         case = self.case
         name = case.times()[-1] if time_ is None else str(time_)
-        for root in [self.path, self.path/"processor0"]:
-            path = root/name/"uniform"/"materialPoints"
-            if path.is_file():
-                break
-        found = re.search(r"water\s*\{(.*?)\}", path.read_text(), re.DOTALL)
-        return {key: float(value) for key, value in re.findall(
-            r"(\w+)\s+([-+0-9.e]+);", found[1])}
+        return case.cloudState(name, cloud)
 
     def mechanicalEnergy(self, time_=None):
         """Kinetic and potential energy; this from the mesh's lower corner"""
