@@ -30,6 +30,7 @@ AXES = "xyz"
 SIDES = [a + end for a in AXES for end in ("min", "max")]
 G = 9.81
 RHO = 1000
+RHO_S = 2650
 
 # No single application of these tests takes longer, in s
 TIMEOUT = 600
@@ -106,7 +107,8 @@ class Setup:
              that is not named belongs to the patch walls
     wall     condition of U.water on the patch walls
     points   per cell and direction
-    energy   with the function object materialPointEnergy, each 10 steps"""
+    energy   with the function object materialPointEnergy, each 10 steps
+    soilRegions  with a cloud soil; without regions of water it is alone"""
     cells: tuple
     h: object
     regions: dict
@@ -123,6 +125,11 @@ class Setup:
     placement: dict = field(default_factory=dict)
     functions: dict = field(default_factory=dict)
     energy: bool = True
+    soilRegions: dict = field(default_factory=dict)
+    soil: dict = field(default_factory=dict)
+    soilWall: object = "noSlip"
+    interaction: dict = field(default_factory=lambda: {
+        "drag": "DarcyForchheimer"})
 
     def __post_init__(self):
         if self.g is None:
@@ -180,7 +187,19 @@ class Setup:
                  "weaklyCompressibleNewtonianCoeffs": fluid,
                  "transfer": "APIC"}
         merge(water, self.water)
-        return {"clouds": "(water)", "water": water}
+        if not self.soilRegions:
+            return {"clouds": "(water)", "water": water}
+
+        soil = {"constitutiveModel": "DruckerPrager",
+                "DruckerPragerCoeffs": {
+                    "rhoS": RHO_S, "d": 0.85e-3, "e0": 0.695, "E0": 216,
+                    "n": 0.5, "nu": 0.2, "phi": 35, "psi": 0},
+                "transfer": "FLIP", "flipDampingRate": 20}
+        merge(soil, self.soil)
+        if not self.regions:
+            return {"clouds": "(soil)", "soil": soil}
+        return {"clouds": "(water soil)", "water": water, "soil": soil,
+                "interaction": self.interaction}
 
     def controlDict(self):
         control = {
@@ -205,19 +224,21 @@ class Setup:
     def setMaterialPointsDict(self):
         water = {"pointsPerDirection": self.points, "placement": "regular"}
         merge(water, self.placement)
-        return {"water": {**water, "regions": self.regions}}
+        clouds = {"water": self.regions, "soil": self.soilRegions}
+        return {cloud: {**water, "regions": regions}
+                for cloud, regions in clouds.items() if regions}
 
     def fvSolution(self):
         mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5}
         merge(mpm, self.mpm)
         return {"MPM": mpm}
 
-    def velocity(self):
-        """0/U.water"""
+    def velocity(self, wall):
+        """0/U.<cloud>"""
         def condition(text):
             return text if isinstance(text, dict) else {"type": text}
 
-        patches = {"walls": condition(self.wall)}
+        patches = {"walls": condition(wall)}
         patches.update({side: condition(kind[1])
                         for side, kind in self.sides.items()})
         if self.dim == 2:
@@ -295,7 +316,10 @@ class Setup:
         """The case directory; returns the case to run"""
         path = Path(path)
         files = {
-            "0/U.water": (self.velocity(), "volVectorField"),
+            **{f"0/U.{cloud}": (self.velocity(wall), "volVectorField")
+               for cloud, wall, regions in [
+                   ("water", self.wall, self.regions),
+                   ("soil", self.soilWall, self.soilRegions)] if regions},
             "constant/g": (self.gravity(), "uniformDimensionedVectorField"),
             "constant/materialPointProperties":
                 (self.properties(), "dictionary"),
@@ -454,9 +478,11 @@ class RunningCase:
 
     def rewrite(self):
         """The dictionaries again; 0 and the mesh stay"""
-        keep = (self.path/"0"/"U.water").read_bytes()
+        keep = {path: path.read_bytes()
+                for path in (self.path/"0").glob("U.*")}
         self.setup.write(self.path)
-        (self.path/"0"/"U.water").write_bytes(keep)
+        for path, content in keep.items():
+            path.write_bytes(content)
 
     def waitForEnd(self, process, limit=30):
         """Exit status; None if it had to be killed"""
