@@ -136,6 +136,12 @@ class Setup:
             self.g = (0, -G, 0) if self.dim == 2 else (0, 0, -G)
 
     @property
+    def clouds(self):
+        if not self.soilRegions:
+            return ["water"]
+        return ["water", "soil"] if self.regions else ["soil"]
+
+    @property
     def dim(self):
         return len(self.cells)
 
@@ -187,7 +193,7 @@ class Setup:
                  "weaklyCompressibleNewtonianCoeffs": fluid,
                  "transfer": "APIC"}
         merge(water, self.water)
-        if not self.soilRegions:
+        if self.clouds == ["water"]:
             return {"clouds": "(water)", "water": water}
 
         soil = {"constitutiveModel": "DruckerPrager",
@@ -196,7 +202,7 @@ class Setup:
                     "n": 0.5, "nu": 0.2, "phi": 35, "psi": 0},
                 "transfer": "FLIP", "flipDampingRate": 20}
         merge(soil, self.soil)
-        if not self.regions:
+        if self.clouds == ["soil"]:
             return {"clouds": "(soil)", "soil": soil}
         return {"clouds": "(water soil)", "water": water, "soil": soil,
                 "interaction": self.interaction}
@@ -224,9 +230,9 @@ class Setup:
     def setMaterialPointsDict(self):
         water = {"pointsPerDirection": self.points, "placement": "regular"}
         merge(water, self.placement)
-        clouds = {"water": self.regions, "soil": self.soilRegions}
-        return {cloud: {**water, "regions": regions}
-                for cloud, regions in clouds.items() if regions}
+        regions = {"water": self.regions, "soil": self.soilRegions}
+        return {cloud: {**water, "regions": regions[cloud]}
+                for cloud in self.clouds}
 
     def fvSolution(self):
         mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5}
@@ -316,10 +322,9 @@ class Setup:
         """The case directory; returns the case to run"""
         path = Path(path)
         files = {
-            **{f"0/U.{cloud}": (self.velocity(wall), "volVectorField")
-               for cloud, wall, regions in [
-                   ("water", self.wall, self.regions),
-                   ("soil", self.soilWall, self.soilRegions)] if regions},
+            **{f"0/U.{cloud}": (self.velocity(
+                {"water": self.wall, "soil": self.soilWall}[cloud]),
+                "volVectorField") for cloud in self.clouds},
             "constant/g": (self.gravity(), "uniformDimensionedVectorField"),
             "constant/materialPointProperties":
                 (self.properties(), "dictionary"),
