@@ -6,9 +6,10 @@
 
 One PNG per time (default: the last), <clouds>_t<time>.png: water coloured by
 speed, soil over it in the colour of sand, with the outline of the mesh and the
-time. In 2D what the mesh leaves out of its box is solid, and grey. A case without time directories of its own is read from
-its processor directories; --decomposed asks for that. Prints for each time how
-many points ParaView found: `<time> s: <n> points, <file>`.
+time. In 2D what the mesh leaves out of its box is solid, and grey. A case
+without time directories of its own is read from its processor directories;
+--decomposed asks for that. Prints for each time how many points ParaView found:
+`<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`.
 """
 
 import argparse

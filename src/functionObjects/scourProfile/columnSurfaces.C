@@ -187,8 +187,9 @@ Foam::mpm::columnSurfaces::heights Foam::mpm::columnSurfaces::find
         forAll(total, k)
         {
             // Stays negative where there is no cell
-            total[k] = alphaSoil[first + k] + max(scalar(0), alphaWater[first + k]);
-            most = max(most, alphaWater[first + k]);
+            const scalar water = max(scalar(0), alphaWater[first + k]);
+            total[k] = alphaSoil[first + k] + water;
+            most = max(most, water);
         }
         if (most > SMALL) h.water[c] = waterHeight(total.cdata(), floor);
     }
