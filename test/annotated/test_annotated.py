@@ -257,5 +257,5 @@ def testAccepted(tmp_path):
     assert "unknown keyword" not in text
     for output in ["energy/0/energy.dat", "front/0/front.dat",
                    "gauge/0/waveGauge.dat", "scour/0/scourProfile.dat",
-                   "scour/0.02/profile.csv", "pressure/0/p"]:
+                   "scour/0/profile.csv", "pressure/0/p"]:
         assert (tmp_path/"postProcessing"/output).stat().st_size > 0
