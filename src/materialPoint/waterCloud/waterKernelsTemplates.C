@@ -42,7 +42,7 @@ class waterKernelsFor
             {},
             c.settings_.volumeCorrection
               ? waterCloud::correctionRate*courant : 0,
-            waterCloud::smoothingRate*courant,
+            1 - std::exp(-waterCloud::smoothingRate*courant),
             c.minPressure_
         };
         for (int d = 0; d < dim; ++d)
