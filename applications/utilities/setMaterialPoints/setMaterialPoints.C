@@ -12,6 +12,10 @@ Description
     Fills regions of the mesh with material points, as described by
     system/setMaterialPointsDict, and writes them to the start time.
 
+    Soil may be \c geostatic, with the vertical effective stress of its own
+    weight (buoyant if \c saturated) and K0 times that to the sides. Water
+    points inside a soil region fill its pores.
+
     Runs in serial (before decomposePar) or in parallel (after it, without
     points), with the same points in both.
 
@@ -30,6 +34,20 @@ Usage
                 max         (0.1 0.2 1);
                 velocity    (0 0 0);
                 pressure    hydrostatic;
+            }
+        }
+    }
+    soil
+    {
+        pointsPerDirection  4;
+        regions
+        {
+            bed
+            {
+                type        box;
+                min         (0.1 0 -1);
+                max         (0.4 0.05 1);
+                stress      geostatic;
             }
         }
     }
@@ -57,6 +75,7 @@ Usage
 #include "materialPointSystem.H"
 #include "pointRegion.H"
 #include "waterCloud.H"
+#include "soilCloud.H"
 
 using namespace Foam;
 
@@ -162,6 +181,266 @@ static regionPoints fill
 }
 
 
+//- A region whose points are in the cloud
+struct placedRegion
+{
+    dictionary dict;
+    autoPtr<mpm::pointRegion> region;
+
+    //- First point, and the one after the last
+    label first;
+    label last;
+
+    //- Height of zero pressure or of the surface [m]
+    scalar level;
+};
+
+
+//- Volume of a point of a cloud with the given dictionary
+static scalar pointVolume(const mpm::lattice& cells, const dictionary& dict)
+{
+    const label n = dict.get<label>("pointsPerDirection");
+    return cells.cellVolume()/(cells.nDim() == 2 ? n*n : n*n*n);
+}
+
+
+//- Fill all regions of a cloud with points at rest or with the velocity given
+static std::vector<placedRegion> place
+(
+    mpm::materialPointCloud& cloud,
+    const dictionary& dict,
+    const fvMesh& mesh,
+    const vector& up,
+    const wordList& foreign,
+    const bool strict
+)
+{
+    const mpm::lattice& cells = cloud.grid().cells();
+
+    mpm::checkKeywords
+    (
+        dict,
+        {"pointsPerDirection", "placement", "jitter", "seed", "regions"},
+        strict
+    );
+
+    std::vector<placedRegion> regions;
+    labelHashSet taken;
+
+    for (const entry& e : dict.subDict("regions"))
+    {
+        if (!e.isDict())
+        {
+            FatalIOErrorInFunction(dict.subDict("regions"))
+                << "entry " << e.keyword() << " is not a dictionary." << nl
+                << "    Allowed: <name> { type box; ... }"
+                << exit(FatalIOError);
+        }
+        for (const word& keyword : foreign)
+        {
+            if (e.dict().found(keyword))
+            {
+                FatalIOErrorInFunction(e.dict())
+                    << "keyword " << keyword << " has no meaning for the cloud "
+                    << cloud.name() << '.' << nl
+                    << "    Allowed: regions without " << flatOutput(foreign)
+                    << exit(FatalIOError);
+            }
+        }
+        autoPtr<mpm::pointRegion> region
+        (
+            mpm::pointRegion::New(mesh, e.dict(), strict)
+        );
+        const regionPoints filled(fill(cloud.grid(), *region, dict, taken));
+
+        const label n = returnReduce(filled.position.size(), sumOp<label>());
+        if (!n)
+        {
+            FatalIOErrorInFunction(e.dict())
+                << "region " << e.keyword() << " holds no points." << nl
+                << "    It spans " << region->bounds() << ", the mesh "
+                << mesh.bounds() << exit(FatalIOError);
+        }
+        Info<< "Cloud " << cloud.name() << ", region " << e.keyword() << ": "
+            << n << " points" << endl;
+
+        // The level is the top of the region, unless given
+        scalar top = -GREAT;
+        for (const point& x : filled.position) top = max(top, up & x);
+        reduce(top, maxOp<scalar>());
+        scalar half = 0;
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            half += 0.5*mag(up[cells.axis(d)])*cells.spacing(d)
+               /dict.get<label>("pointsPerDirection");
+        }
+        const scalar level =
+            e.dict().lookupOrDefault<scalar>("level", top + half);
+
+        const vector velocity
+        (
+            e.dict().lookupOrDefault<vector>("velocity", Zero)
+        );
+        const tensor gradient
+        (
+            e.dict().lookupOrDefault<tensor>("velocityGradient", Zero)
+        );
+        const point centre(e.dict().lookupOrDefault<point>("centre", Zero));
+
+        vectorField v(filled.position.size());
+        forAll(v, i)
+        {
+            v[i] = velocity + (gradient & (filled.position[i] - centre));
+        }
+        const label first =
+            cloud.addPoints(filled.position, filled.cell, filled.id, v);
+        regions.push_back
+        (
+            placedRegion
+            {
+                e.dict(), std::move(region), first, cloud.size(), level
+            }
+        );
+    }
+    if (regions.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword regions: no region given." << nl
+            << "    Allowed: one or more, <name> { type box; ... }"
+            << exit(FatalIOError);
+    }
+    return regions;
+}
+
+
+//- Position of a point of a cloud; components x, y, z
+static point position
+(
+    const mpm::materialPointCloud& cloud,
+    const label p
+)
+{
+    const mpm::lattice& cells = cloud.grid().cells();
+    point x(Zero);
+    for (label d = 0; d < cells.nDim(); ++d) x[cells.axis(d)] = cloud.x(d)[p];
+    if (cells.nDim() == 2) x[cells.axis(2)] = cells.midPlane();
+    return x;
+}
+
+
+//- Void ratio that a region of soil starts with
+static scalar voidRatioOf(const mpm::soilCloud& soil, const dictionary& dict)
+{
+    return mpm::readBoundedOrDefault
+    (
+        dict, "voidRatio", dimless, soil.model().e0(), 0, GREAT
+    );
+}
+
+
+//- Mass and pressure of the water; inside soil it fills the pores only
+static void setWaterState
+(
+    mpm::waterCloud& water,
+    const std::vector<placedRegion>& regions,
+    const scalar volume,
+    const vector& up,
+    const scalar g,
+    const mpm::soilCloud* soil,
+    const std::vector<placedRegion>& soilRegions
+)
+{
+    scalar surface = -GREAT;
+    for (const placedRegion& r : regions) surface = max(surface, r.level);
+    water.findSoundSpeed(surface, 0);
+
+    for (const placedRegion& r : regions)
+    {
+        const bool hydrostatic =
+            mpm::readChoiceOrDefault
+            (
+                r.dict, "pressure", "uniform", {"uniform", "hydrostatic"}
+            ) == "hydrostatic";
+
+        scalarField p
+        (
+            r.last - r.first, r.dict.lookupOrDefault<scalar>("p", 0)
+        );
+        scalarField V(r.last - r.first, volume);
+        forAll(p, i)
+        {
+            const point x(position(water, r.first + i));
+            if (hydrostatic)
+            {
+                p[i] = water.fluid().hydrostaticPressure
+                (
+                    g*max(scalar(0), r.level - (up & x))
+                );
+            }
+            const label celli =
+                water.grid().meshCell(water.points().cell()[r.first + i]);
+            for (const placedRegion& s : soilRegions)
+            {
+                if (s.region->contains(x, celli))
+                {
+                    const scalar e = voidRatioOf(*soil, s.dict);
+                    V[i] *= e/(1 + e);
+                }
+            }
+        }
+        water.setState(r.first, V, p);
+    }
+}
+
+
+//- Void ratio and effective stress of the soil
+static void setSoilState
+(
+    mpm::soilCloud& soil,
+    const std::vector<placedRegion>& regions,
+    const scalar volume,
+    const vector& up,
+    const scalar g,
+    const mpm::waterCloud* water
+)
+{
+    for (const placedRegion& r : regions)
+    {
+        const label n = r.last - r.first;
+        const scalar e = voidRatioOf(soil, r.dict);
+        const bool geostatic =
+            mpm::readChoiceOrDefault
+            (
+                r.dict, "stress", "none", {"none", "geostatic"}
+            ) == "geostatic";
+        const scalar K0 = mpm::readBoundedOrDefault
+        (
+            r.dict, "K0", dimless, soil.model().K0(), 0, GREAT, true
+        );
+        const bool saturated =
+            mpm::readSwitchOrDefault(r.dict, "saturated", water != nullptr);
+
+        const scalar buoyancy =
+            saturated && water ? water->fluid().rho0() : 0;
+        const scalar weight = (soil.model().rhoS() - buoyancy)/(1 + e)*g;
+
+        symmTensorField sigma(n, Zero);
+        if (geostatic)
+        {
+            const symmTensor direction =
+                sqr(up) + K0*(symmTensor::I - sqr(up));
+            forAll(sigma, i)
+            {
+                const scalar depth =
+                    r.level - (up & position(soil, r.first + i));
+                sigma[i] = -weight*max(scalar(0), depth)*direction;
+            }
+        }
+        soil.setState(r.first, scalarField(n, volume), scalarField(n, e), sigma);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -214,143 +493,48 @@ int main(int argc, char *argv[])
     const scalar g = mag(points.g());
     const vector up = (g > 0 ? -points.g()/g : vector(Zero));
 
-    mpm::waterCloud& water = points.water("setMaterialPoints");
-    const dictionary& dict = setDict.subDict(water.name());
-    mpm::checkKeywords
-    (
-        dict,
-        {"pointsPerDirection", "placement", "jitter", "seed", "regions"},
-        strict
-    );
+    mpm::soilCloud* soil = points.soilPtr();
+    mpm::waterCloud* water = points.waterPtr();
 
-    // Place all points first: the speed of sound depends on all of them
-    struct placed
+    // Place all points first: water needs to know the pores of the soil
+    std::vector<placedRegion> inSoil, inWater;
+    if (soil)
     {
-        dictionary dict;
-        label first;
-        scalar level;
-    };
-    std::vector<placed> regions;
-    scalar surface = -GREAT;
-    labelHashSet taken;
-
-    for (const entry& e : dict.subDict("regions"))
-    {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(dict.subDict("regions"))
-                << "entry " << e.keyword() << " is not a dictionary." << nl
-                << "    Allowed: <name> { type box; ... }"
-                << exit(FatalIOError);
-        }
-        autoPtr<mpm::pointRegion> region
+        inSoil = place
         (
-            mpm::pointRegion::New(mesh, e.dict(), strict)
-        );
-        const regionPoints filled
-        (
-            fill(points.grid(), *region, dict, taken)
-        );
-
-        const label n = returnReduce(filled.position.size(), sumOp<label>());
-        if (!n)
-        {
-            FatalIOErrorInFunction(e.dict())
-                << "region " << e.keyword() << " holds no points." << nl
-                << "    It spans " << region->bounds() << ", the mesh "
-                << mesh.bounds() << exit(FatalIOError);
-        }
-        Info<< "Cloud " << water.name() << ", region " << e.keyword() << ": "
-            << n << " points" << endl;
-
-        // Zero pressure at the top of the region, unless given
-        scalar top = -GREAT;
-        for (const point& x : filled.position) top = max(top, up & x);
-        reduce(top, maxOp<scalar>());
-        scalar half = 0;
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            half += 0.5*mag(up[cells.axis(d)])*cells.spacing(d)
-               /dict.get<label>("pointsPerDirection");
-        }
-        const scalar level =
-            e.dict().lookupOrDefault<scalar>("level", top + half);
-        surface = max(surface, level);
-
-        const vector velocity
-        (
-            e.dict().lookupOrDefault<vector>("velocity", Zero)
-        );
-        const tensor gradient
-        (
-            e.dict().lookupOrDefault<tensor>("velocityGradient", Zero)
-        );
-        const point centre(e.dict().lookupOrDefault<point>("centre", Zero));
-
-        vectorField v(filled.position.size());
-        forAll(v, i)
-        {
-            v[i] = velocity + (gradient & (filled.position[i] - centre));
-        }
-        regions.push_back
-        (
-            placed
-            {
-                e.dict(),
-                water.addPoints(filled.position, filled.cell, filled.id, v),
-                level
-            }
+            *soil, setDict.subDict(soil->name()), mesh, up,
+            {"pressure", "p"}, strict
         );
     }
-    if (regions.empty())
+    if (water)
     {
-        FatalIOErrorInFunction(dict)
-            << "keyword regions: no region given." << nl
-            << "    Allowed: one or more, <name> { type box; ... }"
-            << exit(FatalIOError);
+        const dictionary& dict = setDict.subDict(water->name());
+        inWater = place
+        (
+            *water, dict, mesh, up,
+            {"voidRatio", "stress", "K0", "saturated"}, strict
+        );
+        setWaterState
+        (
+            *water, inWater, pointVolume(cells, dict), up, g, soil, inSoil
+        );
+    }
+    if (soil)
+    {
+        setSoilState
+        (
+            *soil, inSoil, pointVolume(cells, setDict.subDict(soil->name())),
+            up, g, water
+        );
     }
 
-    water.findSoundSpeed(surface, 0);
-
-    const label n = dict.get<label>("pointsPerDirection");
-    const scalar volume =
-        cells.cellVolume()/(cells.nDim() == 2 ? n*n : n*n*n);
-
-    for (size_t r = 0; r < regions.size(); ++r)
+    for (mpm::materialPointCloud& cloud : points.clouds())
     {
-        const label first = regions[r].first;
-        const label last =
-            r + 1 < regions.size() ? regions[r + 1].first : water.size();
-        const bool hydrostatic =
-            mpm::readChoiceOrDefault
-            (
-                regions[r].dict, "pressure", "uniform",
-                {"uniform", "hydrostatic"}
-            ) == "hydrostatic";
-        const scalar uniform = regions[r].dict.lookupOrDefault<scalar>("p", 0);
-
-        scalarField p(last - first, uniform);
-        if (hydrostatic)
-        {
-            forAll(p, i)
-            {
-                scalar height = 0;
-                for (label d = 0; d < cells.nDim(); ++d)
-                {
-                    height += up[cells.axis(d)]*water.x(d)[first + i];
-                }
-                p[i] = water.fluid().hydrostaticPressure
-                (
-                    g*max(scalar(0), regions[r].level - height)
-                );
-            }
-        }
-        water.setState(first, scalarField(last - first, volume), p);
+        cloud.finishPoints();
+        Info<< "Cloud " << cloud.name() << ": " << cloud.globalSize()
+            << " points, mass " << cloud.globalMass() << " kg" << nl;
     }
-    water.finishPoints();
-
-    Info<< "Cloud " << water.name() << ": " << water.globalSize()
-        << " points, mass " << water.globalMass() << " kg" << nl << endl;
+    Info<< endl;
 
     points.write();
 

@@ -425,10 +425,12 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
 Foam::mpm::nodeBoundary::nodeBoundary
 (
     const backgroundGrid& grid,
-    const volVectorField& U
+    const volVectorField& U,
+    const cornerType corners
 )
 :
-    grid_(grid)
+    grid_(grid),
+    corners_(corners)
 {
     List<FixedList<sideType, 6>> side;
     HashTable<nodeVector, label, Hash<label>> wallVelocity;
@@ -494,7 +496,7 @@ void Foam::mpm::nodeBoundary::constrain
         nodeVector& v = velocity[c.node];
 
         bool into = true;
-        for (label d = 0; d < nDim; ++d)
+        for (label d = 0; corners_ == slipCorners && d < nDim; ++d)
         {
             into = into && (c.intoSolid[d] == 0 || v[d]*c.intoSolid[d] > 0);
         }

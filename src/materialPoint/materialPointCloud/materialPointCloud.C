@@ -128,6 +128,35 @@ void Foam::mpm::materialPointCloud::returnFromWall(const label point)
 }
 
 
+void Foam::mpm::materialPointCloud::selectTransfer
+(
+    const word& defaultScheme,
+    const scalar defaultApicRate
+)
+{
+    transfer_ = transferScheme::New(dict_, defaultScheme, defaultApicRate);
+
+    if (transfer_->affine() && C_ < 0)
+    {
+        C_ = points_.add("velocityGradient", pointStorage::tensorValue);
+    }
+    if (transfer_->affine() && grid_.shapeFunction() == linear::name)
+    {
+        // The gradient of the linear function does not vanish where a node has
+        // almost no mass: a free surface blows up within some 100 steps
+        FatalIOErrorInFunction(dict_)
+            << "keyword transfer is " << transfer_->type()
+            << ", which is unstable at free surfaces with shapeFunction linear."
+            << nl << "    Allowed: FLIP, PIC, XPIC, or a B-spline for"
+            << " fvSolution/MPM/shapeFunction" << exit(FatalIOError);
+    }
+    if (transfer_->filtered())
+    {
+        filter_.assign(grid_.nNodes(), nodeVector{});
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::materialPointCloud::materialPointCloud
@@ -137,7 +166,9 @@ Foam::mpm::materialPointCloud::materialPointCloud
     const backgroundGrid& grid,
     const dictionary& dict,
     const settings& control,
-    costMeter& cost
+    costMeter& cost,
+    const vector& g,
+    const nodeBoundary::cornerType corners
 )
 :
     cloud(mesh, name),
@@ -146,6 +177,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     dict_(dict),
     settings_(control),
     cost_(cost),
+    g_(g),
     points_(grid.nDim()),
     x_(points_.add("x", pointStorage::vectorValue)),
     v_(points_.add("U", pointStorage::vectorValue)),
@@ -178,8 +210,9 @@ Foam::mpm::materialPointCloud::materialPointCloud
         dimensionedScalar(dimless, Zero),
         zeroGradientFvPatchScalarField::typeName
     ),
-    boundary_(grid, U_),
+    boundary_(grid, U_, corners),
     order_(grid),
+    coupling_(nullptr),
     stepCount_(0),
     expectedPoints_(-1)
 {

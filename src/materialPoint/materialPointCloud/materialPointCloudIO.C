@@ -90,6 +90,24 @@ void storeField
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
+Foam::direction Foam::mpm::materialPointCloud::symmComponent
+(
+    const lattice& cells,
+    const label k
+)
+{
+    static const direction component[3][3] =
+    {
+        {symmTensor::XX, symmTensor::XY, symmTensor::XZ},
+        {symmTensor::XY, symmTensor::YY, symmTensor::YZ},
+        {symmTensor::XZ, symmTensor::YZ, symmTensor::ZZ}
+    };
+    static const label c[6] = {0, 1, 2, 0, 1, 2}, d[6] = {0, 1, 2, 1, 2, 0};
+    return component[cells.axis(c[k])][cells.axis(d[k])];
+}
+
+
+
 bool Foam::mpm::materialPointCloud::readField(const pointStorage::field& f)
 {
     const label nDim = grid_.nDim();
@@ -114,6 +132,21 @@ bool Foam::mpm::materialPointCloud::readField(const pointStorage::field& f)
                 for (label d = 0; d < nDim; ++d)
                 {
                     points_.column(f.first + d)[i] = s[cells.axis(d)];
+                }
+            }
+        );
+    }
+    if (f.rank == pointStorage::symmTensorValue)
+    {
+        return readValues<symmTensor>
+        (
+            f.name, *this, size(),
+            [&](const label i, const symmTensor& s)
+            {
+                for (label k = 0; k < f.nColumns; ++k)
+                {
+                    points_.column(f.first + k)[i] =
+                        s[symmComponent(cells, k)];
                 }
             }
         );
@@ -175,6 +208,22 @@ Foam::tmp<Foam::tensorField> Foam::mpm::materialPointCloud::tensors
         const scalar* column = points_.column(f.first + c*nDim + d);
         const label k = 3*grid_.cells().axis(c) + grid_.cells().axis(d);
         forAll(result.ref(), i) result.ref()[i][k] = column[i];
+    }
+    return result;
+}
+
+
+Foam::tmp<Foam::symmTensorField> Foam::mpm::materialPointCloud::symmTensors
+(
+    const pointStorage::field& f
+) const
+{
+    tmp<symmTensorField> result(new symmTensorField(size(), Zero));
+    for (label k = 0; k < f.nColumns; ++k)
+    {
+        const scalar* column = points_.column(f.first + k);
+        const label component = symmComponent(grid_.cells(), k);
+        forAll(result.ref(), i) result.ref()[i][component] = column[i];
     }
     return result;
 }
@@ -369,6 +418,12 @@ bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
                 );
                 ok = writeField<vector>
                     (f.name, *this, values, MPM_WRITE_ARGUMENTS) && ok;
+                break;
+            }
+            case pointStorage::symmTensorValue:
+            {
+                ok = writeField<symmTensor>
+                    (f.name, *this, symmTensors(f), MPM_WRITE_ARGUMENTS) && ok;
                 break;
             }
             case pointStorage::tensorValue:

@@ -25,7 +25,10 @@ Foam::label Foam::mpm::pointStorage::add
 )
 {
     const label n =
-        rank == scalarValue ? 1 : rank == vectorValue ? nDim_ : nDim_*nDim_;
+        rank == scalarValue ? 1
+      : rank == vectorValue ? nDim_
+      : rank == tensorValue ? nDim_*nDim_
+      : nDim_ == 2 ? 4 : 6;
     const label first = columns_.size();
 
     fields_.push_back(field{name, rank, first, n});

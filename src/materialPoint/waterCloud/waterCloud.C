@@ -26,30 +26,12 @@ void Foam::mpm::waterCloud::select()
     const scalar apicRate =
         2*fluid_.soundSpeed()/grid_.cells().minSpacing();
 
-    transfer_ = transferScheme::New(dict_, "APIC", apicRate);
+    selectTransfer("APIC", settings_.coupled ? coupledApicRate : apicRate);
 
-    if (transfer_->affine() && C_ < 0)
-    {
-        C_ = points_.add("velocityGradient", pointStorage::tensorValue);
-    }
-    if (transfer_->affine() && grid_.shapeFunction() == linear::name)
-    {
-        // The gradient of the linear function does not vanish where a node has
-        // almost no mass: a free surface blows up within some 100 steps
-        FatalIOErrorInFunction(dict_)
-            << "keyword transfer is " << transfer_->type()
-            << ", which is unstable at free surfaces with shapeFunction linear."
-            << nl << "    Allowed: FLIP, PIC, XPIC, or a B-spline for"
-            << " fvSolution/MPM/shapeFunction" << exit(FatalIOError);
-    }
-    if (transfer_->filtered())
-    {
-        filter_.assign(grid_.nNodes(), nodeVector{});
-    }
-    kernels_ = waterKernels::New
+    kernels_ = newWaterKernels
     (
         *this,
-        waterKernels::variant
+        waterVariant
         {
             grid_.nDim(),
             transfer_->affine(),
@@ -110,9 +92,11 @@ Foam::mpm::waterCloud::waterCloud
     const vector& g
 )
 :
-    materialPointCloud(name, mesh, grid, dict, control, cost),
+    materialPointCloud
+    (
+        name, mesh, grid, dict, control, cost, g, nodeBoundary::slipCorners
+    ),
     fluid_(dict, control.strictKeywords),
-    g_(g),
     J_(points_.add("J", pointStorage::scalarValue)),
     gradJ_
     (
@@ -252,30 +236,6 @@ void Foam::mpm::waterCloud::finishPoints()
 }
 
 
-void Foam::mpm::waterCloud::particlesToGrid()
-{
-    kernels_->particlesToGrid();
-}
-
-
-void Foam::mpm::waterCloud::updateStress(const scalar deltaT)
-{
-    kernels_->updateStress(deltaT);
-}
-
-
-void Foam::mpm::waterCloud::updateNodes(const scalar deltaT)
-{
-    kernels_->updateNodes(deltaT);
-}
-
-
-void Foam::mpm::waterCloud::gridToParticles(const scalar deltaT)
-{
-    kernels_->gridToParticles(deltaT);
-}
-
-
 Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
 {
     return fluid_.soundSpeed(minJ_);
@@ -301,12 +261,6 @@ void Foam::mpm::waterCloud::energy
     {
         elastic += mass()[p]/fluid_.rho0()*fluid_.elasticEnergy(J()[p]);
     }
-}
-
-
-void Foam::mpm::waterCloud::updateMeshFields()
-{
-    kernels_->updateMeshFields();
 }
 
 

@@ -10,21 +10,21 @@ namespace Foam
 {
 namespace mpm
 {
-    extern template autoPtr<waterKernels> newWaterKernels<linear>
-        (waterCloud&, const waterKernels::variant&);
-    extern template autoPtr<waterKernels> newWaterKernels<quadraticBSpline>
-        (waterCloud&, const waterKernels::variant&);
-    extern template autoPtr<waterKernels> newWaterKernels<cubicBSpline>
-        (waterCloud&, const waterKernels::variant&);
+    extern template autoPtr<cloudKernels> newWaterKernels<linear>
+        (waterCloud&, const waterVariant&);
+    extern template autoPtr<cloudKernels> newWaterKernels<quadraticBSpline>
+        (waterCloud&, const waterVariant&);
+    extern template autoPtr<cloudKernels> newWaterKernels<cubicBSpline>
+        (waterCloud&, const waterVariant&);
 }
 }
 
 // * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
 
-Foam::autoPtr<Foam::mpm::waterKernels> Foam::mpm::waterKernels::New
+Foam::autoPtr<Foam::mpm::cloudKernels> Foam::mpm::newWaterKernels
 (
     waterCloud& cloud,
-    const variant& v
+    const waterVariant& v
 )
 {
     const word& shape = cloud.grid().shapeFunction();

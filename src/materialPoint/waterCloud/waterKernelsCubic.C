@@ -9,11 +9,11 @@ Description
 
 #include "waterKernelsTemplates.C"
 
-template Foam::autoPtr<Foam::mpm::waterKernels>
+template Foam::autoPtr<Foam::mpm::cloudKernels>
 Foam::mpm::newWaterKernels<Foam::mpm::cubicBSpline>
 (
     waterCloud&,
-    const waterKernels::variant&
+    const waterVariant&
 );
 
 // ************************************************************************* //

@@ -6,6 +6,7 @@ License
 #include "waterKernels.H"
 #include "waterMaterial.H"
 #include "waterCloud.H"
+#include "cloudKernelsFor.H"
 
 namespace Foam
 {
@@ -15,12 +16,15 @@ namespace mpm
 template<class Shape, int dim, bool affine, bool viscous, bool smoothing>
 class waterKernelsFor
 :
-    public waterKernels
+    public cloudKernelsFor<Shape, dim, affine>
 {
+    typedef cloudKernelsFor<Shape, dim, affine> base;
     typedef waterMaterial<dim, viscous, smoothing> material;
 
+    using base::kernels_;
+    using base::volume;
+
     waterCloud& cloud_;
-    const transferKernels<Shape, dim, affine> kernels_;
 
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
@@ -29,8 +33,9 @@ class waterKernelsFor
     material makeMaterial(const scalar deltaT)
     {
         waterCloud& c = cloud_;
-        const scalar courant = c.fluid_.soundSpeed()*deltaT
-           /c.grid_.cells().minSpacing();
+        const scalar perSpeed = deltaT/c.grid_.cells().minSpacing();
+        const scalar courant = c.fluid_.soundSpeed()*perSpeed;
+        const bool correct = c.settings_.volumeCorrection;
 
         material m
         {
@@ -40,8 +45,8 @@ class waterKernelsFor
             {},
             deltaT,
             {},
-            c.settings_.volumeCorrection
-              ? waterCloud::correctionRate*courant : 0,
+            correct ? waterCloud::correctionRate*courant : 0,
+            correct ? waterCloud::bedCorrectionRate*perSpeed : 0,
             1 - std::exp(-waterCloud::smoothingRate*courant),
             c.minPressure_
         };
@@ -53,53 +58,22 @@ class waterKernelsFor
         return m;
     }
 
-    template<class Op>
-    void forActiveNodes(const Op& op)
-    {
-        for (const auto& range : cloud_.order_.nodeRanges())
-        {
-            for (label i = range.first; i < range.second; ++i) op(i);
-        }
-    }
-
-    void sumToNodes()
-    {
-        waterCloud& c = cloud_;
-        const material m(makeMaterial(0));
-
-        c.zeroNodes();
-        kernels_.particleToGrid(c.view<dim>(), m, c.nodes_);
-
-        if (!c.grid_.exchange().idle())
-        {
-            c.cost_.start("halo exchange");
-            c.grid_.exchange().sum(c.nodes_.momentum);
-            c.grid_.exchange().sum(c.nodes_.ghostMass);
-            if (dim == 3) c.grid_.exchange().sum(c.nodes_.volume);
-        }
-    }
-
-    scalar volume(const label i) const
-    {
-        const nodalFields& n = cloud_.nodes_;
-        if constexpr (dim == 2) return n.momentum[i][dim + 1];
-        else return n.volume[i];
-    }
-
     //- How much the volume at each node is off, into the scalar slot of the
     //  velocity: inside the water any error, elsewhere only an excess
     void volumeErrors()
     {
-        const std::vector<scalar>& inverseVolume =
-            cloud_.boundary_.inverseVolume();
-        std::vector<scalar>& S = cloud_.nodes_.saturation;
-        nodeField<nodeVector>& velocity = cloud_.nodes_.velocity;
+        waterCloud& c = cloud_;
+        const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
+        const std::vector<scalar>& inversePoreVolume =
+            c.coupling_ ? c.coupling_->inversePoreVolume : inverseVolume;
+        std::vector<scalar>& S = c.nodes_.saturation;
+        nodeField<nodeVector>& velocity = c.nodes_.velocity;
 
-        forActiveNodes
+        this->forActiveNodes
         (
-            [&](const label i) { S[i] = volume(i)*inverseVolume[i]; }
+            [&](const label i) { S[i] = volume(i)*inversePoreVolume[i]; }
         );
-        forActiveNodes
+        this->forActiveNodes
         (
             [&](const label i)
             {
@@ -122,12 +96,23 @@ class waterKernelsFor
         );
     }
 
+    //- Smoothed volume ratio of a node; ghost nodes have their own
+    scalar meanVolumeRatio(const label i) const
+    {
+        const nodalFields& nodes = cloud_.nodes_;
+        const scalar unfolded = nodes.momentum[i][dim] + nodes.ghostMass[i];
+        return
+            unfolded > 0
+          ? cloud_.fluid_.rho0()*nodes.force[i][dim]/unfolded
+          : 0;
+    }
+
 public:
 
     explicit waterKernelsFor(waterCloud& cloud)
     :
-        cloud_(cloud),
-        kernels_(cloud.boundary())
+        base(cloud),
+        cloud_(cloud)
     {
         const label ny = cloud.grid().stride(1);
         const label nz = cloud.grid().stride(2);
@@ -142,31 +127,12 @@ public:
 
     virtual void particlesToGrid()
     {
-        waterCloud& c = cloud_;
-        nodalFields& nodes = c.nodes_;
+        cloud_.cost_.start("water: particle-to-grid");
+        this->sumToNodes(makeMaterial(0));
 
-        c.cost_.start("particle-to-grid");
-        sumToNodes();
-
-        c.cost_.start("nodes");
-        forActiveNodes
-        (
-            [&](const label i)
-            {
-                const scalar m = nodes.momentum[i][dim];
-                nodeVector v = nodes.momentum[i]*(m > 0 ? 1/m : 0);
-                for (int k = dim; k < 4; ++k) v[k] = 0;
-                nodes.velocity[i] = v;
-            }
-        );
-        c.boundary_.constrain(nodes.velocity);
-
-        if (c.settings_.volumeCorrection)
-        {
-            c.cost_.start("volume correction (nodes)");
-            volumeErrors();
-        }
-        c.cost_.stop();
+        cloud_.cost_.start("water: nodes");
+        this->nodalVelocities();
+        cloud_.cost_.stop();
     }
 
 
@@ -174,36 +140,39 @@ public:
     {
         waterCloud& c = cloud_;
 
-        c.cost_.start("stress and forces");
+        if (c.settings_.volumeCorrection)
+        {
+            c.cost_.start("water: volume correction (nodes)");
+            volumeErrors();
+        }
+
+        c.cost_.start("water: stress and forces");
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         material m(makeMaterial(deltaT));
-        kernels_.updateStress(c.view<dim>(), m, keep, c.nodes_);
+        kernels_.updateStress
+        (
+            c.view<dim>(), m, keep, c.nodes_, c.coupling_
+        );
         c.stressWork_ += deltaT*sumLanes(m.stressWork);
         c.correctionWork_ += sumLanes(m.correctionWork);
 
-        if (!c.grid_.exchange().idle())
-        {
-            c.cost_.start("halo exchange");
-            c.grid_.exchange().sum(c.nodes_.force);
-        }
+        this->exchangeForces();
+        this->filter();
 
-        if (c.transfer_->filtered())
+        if (c.coupling_)
         {
-            c.cost_.start("XPIC filter");
-            nodeField<nodeVector>& filter = c.filter_;
-            forActiveNodes([&](const label i) { filter[i] = nodeVector{}; });
-            kernels_.velocityToGrid(c.view<dim>(), filter);
-            c.grid_.exchange().sum(filter);
-            forActiveNodes
+            c.cost_.start("pore pressure");
+            this->forActiveNodes
             (
                 [&](const label i)
                 {
-                    const scalar m = c.nodes_.momentum[i][dim];
-                    filter[i] *= (m > 0 ? 1/m : 0);
+                    const scalar J = meanVolumeRatio(i);
+                    c.coupling_->pressure[i] =
+                        J > 0
+                      ? max(c.fluid_.pressure(J), c.minPressure_)
+                      : 0;
                 }
             );
-            c.boundary_.constrain(filter, true);
-            kernels_.gridToVelocity(c.view<dim>(), filter);
         }
         c.cost_.stop();
     }
@@ -212,53 +181,19 @@ public:
     virtual void updateNodes(const scalar deltaT)
     {
         waterCloud& c = cloud_;
-        nodalFields& nodes = c.nodes_;
-        const scalar rho0 = c.fluid_.rho0();
 
-        c.cost_.start("nodes");
-        if (c.settings_.energyBalance) nodes.oldVelocity = nodes.velocity;
-
-        forActiveNodes
+        c.cost_.start("water: nodes");
+        this->accelerate
         (
-            [&](const label i)
+            deltaT,
+            [&](const label i, nodeVector& v)
             {
-                const scalar m = nodes.momentum[i][dim];
-                nodeVector v = nodes.velocity[i]
-                  + (m > 0 ? deltaT/m : 0)*nodes.force[i];
-
-                if constexpr (smoothing)
-                {
-                    // The smoothed volume ratio; ghost nodes have their own
-                    const scalar unfolded = m + nodes.ghostMass[i];
-                    v[dim] =
-                        unfolded > 0 ? rho0*nodes.force[i][dim]/unfolded : 0;
-                }
-                nodes.velocity[i] = v;
+                if constexpr (smoothing) v[dim] = meanVolumeRatio(i);
             }
         );
-        c.boundary_.constrain(nodes.velocity);
-
         if (c.settings_.energyBalance)
         {
-            // The work of the stresses was summed with the old velocity; the
-            // kinetic energy changes with the mean of old and new
-            scalar work = 0;
-            forActiveNodes
-            (
-                [&](const label i)
-                {
-                    scalar power = 0;
-                    for (int d = 0; d < dim; ++d)
-                    {
-                        const scalar weight = nodes.momentum[i][dim]
-                           *c.g_[c.grid_.cells().axis(d)];
-                        power += (nodes.force[i][d] - weight)
-                           *(nodes.velocity[i][d] - nodes.oldVelocity[i][d]);
-                    }
-                    work += c.grid_.share(i)*power;
-                }
-            );
-            c.stressWork_ -= 0.5*deltaT*work;
+            c.stressWork_ -= this->workOfAcceleration(deltaT);
         }
         c.cost_.stop();
     }
@@ -268,7 +203,7 @@ public:
     {
         waterCloud& c = cloud_;
 
-        c.cost_.start("grid-to-particle");
+        c.cost_.start("water: grid-to-particle");
         material m(makeMaterial(deltaT));
         kernels_.gridToParticle
         (
@@ -283,13 +218,11 @@ public:
     virtual void updateMeshFields()
     {
         waterCloud& c = cloud_;
-        const backgroundGrid& grid = c.grid_;
         nodeField<nodeVector>& pressure = c.nodes_.force;
-
-        sumToNodes();
+        const material m(makeMaterial(0));
 
         // Mean pressure by volume, in the slots 0 (sum) and 1 (weight)
-        const material m(makeMaterial(0));
+        this->sumToNodes(m);
         kernels_.scalarsToGrid
         (
             c.view<dim>(),
@@ -304,63 +237,39 @@ public:
             },
             pressure
         );
-        grid.exchange().sum(pressure);
+        c.grid_.exchange().sum(pressure);
 
-        const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
-        const label T = Shape::tileWidth;
-
-        c.alpha_ = dimensionedScalar(dimless, Zero);
         c.p_ = dimensionedScalar(dimPressure, Zero);
-        c.U_.primitiveFieldRef() = Zero;
-
-        for (label celli = 0; celli < c.mesh_.nCells(); ++celli)
-        {
-            const label cell = grid.boxCell(celli);
-            if (!c.order_.active(cell)) continue;
-
-            const label s = c.boundary_.stencil(cell);
-            scalar alpha = 0, mass = 0, pV = 0, V = 0;
-            vector momentum(Zero);
-
-            for (label t = 0; t < tile<Shape, dim>::size; ++t)
+        this->cellMeans
+        (
+            [&](const label i) { return volume(i); },
+            [&]
+            (
+                const label celli,
+                const label n,
+                const label* node,
+                const scalar* weight
+            )
             {
-                scalar w = Shape::cellIntegral[t % T]
-                   *Shape::cellIntegral[(t/T) % T];
-                if (dim == 3) w *= Shape::cellIntegral[t/(T*T)];
-
-                label i = cell + grid.tileOffset() + grid.tileNode(t);
-                nodeVector sign{1, 1, 1, 1};
-                if (s >= 0)
+                scalar pV = 0, V = 0;
+                for (label t = 0; t < n; ++t)
                 {
-                    i = c.boundary_.targets(s)[t];
-                    sign = c.boundary_.signs(s)[t];
+                    pV += weight[t]*pressure[node[t]][0];
+                    V += weight[t]*pressure[node[t]][1];
                 }
-                alpha += w*volume(i)*inverseVolume[i];
-                mass += w*c.nodes_.momentum[i][dim];
-                for (int d = 0; d < dim; ++d)
-                {
-                    momentum[grid.cells().axis(d)] +=
-                        w*sign[d]*c.nodes_.momentum[i][d];
-                }
-                pV += w*pressure[i][0];
-                V += w*pressure[i][1];
+                if (V > 0) c.p_[celli] = pV/V;
             }
-            c.alpha_[celli] = alpha;
-            if (mass > 0) c.U_[celli] = momentum/mass;
-            if (V > 0) c.p_[celli] = pV/V;
-        }
-        c.alpha_.correctBoundaryConditions();
-        c.U_.correctBoundaryConditions();
+        );
         c.p_.correctBoundaryConditions();
     }
 };
 
 
 template<class Shape>
-autoPtr<waterKernels> newWaterKernels
+autoPtr<cloudKernels> newWaterKernels
 (
     waterCloud& cloud,
-    const waterKernels::variant& v
+    const waterVariant& v
 )
 {
     // Run-time flags to template arguments, one at a time
@@ -370,7 +279,7 @@ autoPtr<waterKernels> newWaterKernels
         constexpr bool a = decltype(affine)::value;
         constexpr bool mu = decltype(viscous)::value;
 
-        waterKernels* kernels;
+        cloudKernels* kernels;
         if (v.smoothing)
         {
             kernels = new waterKernelsFor<Shape, nDim, a, mu, true>(cloud);
@@ -379,7 +288,7 @@ autoPtr<waterKernels> newWaterKernels
         {
             kernels = new waterKernelsFor<Shape, nDim, a, mu, false>(cloud);
         }
-        return autoPtr<waterKernels>(kernels);
+        return autoPtr<cloudKernels>(kernels);
     };
     auto chooseViscous = [&](const auto dim, const auto affine)
     {

@@ -22,7 +22,8 @@ Foam::wordList Foam::mpm::pointRegion::keywords(const wordList& own)
     wordList all
     ({
         "type", "velocity", "velocityGradient", "centre",
-        "pressure", "p", "level"
+        "pressure", "p", "level",
+        "voidRatio", "stress", "K0", "saturated"
     });
     all.append(own);
     return all;

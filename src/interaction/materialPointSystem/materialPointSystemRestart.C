@@ -9,6 +9,9 @@ License
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 #include "cloud.H"
+#include "waterCloud.H"
+#include "soilCloud.H"
+#include "waterSoilInteraction.H"
 #include <fstream>
 
 const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
@@ -169,6 +172,16 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
         }
     }
     firstStep_ = clouds_[0].stepCount();
+
+    if (interaction_.valid())
+    {
+        soil_->setLiquid
+        (
+            water_->nodes().momentum,
+            water_->fluid().mu(),
+            water_->fluid().soundSpeed()
+        );
+    }
 
     // The name of the directory is rounded
     const scalar value = state.lookupOrDefault<scalar>("time", time_.value());

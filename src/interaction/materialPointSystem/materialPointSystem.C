@@ -6,6 +6,8 @@ License
 #include "FlatOutput.H"
 #include "materialPointSystem.H"
 #include "waterCloud.H"
+#include "soilCloud.H"
+#include "waterSoilInteraction.H"
 #include "dictionaryEntries.H"
 #include "uniformDimensionedFields.H"
 #include "PstreamReduceOps.H"
@@ -27,6 +29,11 @@ void Foam::mpm::materialPointSystem::readSettings()
         readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
     );
 
+    settings_.maxSoilSoundSpeed =
+        control_.found("maxSoilSoundSpeed")
+      ? readPositive(control_, "maxSoilSoundSpeed", dimVelocity)
+      : GREAT;
+
     settings_.energyBalance = false;
     if (const dictionary* functions = time_.controlDict().findDict("functions"))
     {
@@ -46,7 +53,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         control_,
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
-            "volumeCorrection", "logInterval", "strictKeywords"
+            "volumeCorrection", "maxSoilSoundSpeed", "logInterval",
+            "strictKeywords"
         },
         settings_.strictKeywords
     );
@@ -109,10 +117,14 @@ void Foam::mpm::materialPointSystem::readGravity()
 
 void Foam::mpm::materialPointSystem::makeClouds()
 {
+    const wordList allowed({"water", "soil"});
+
     if (!properties_.found("clouds"))
     {
         // The misspelt keyword is named, if there is one
-        const wordList entries({"clouds", "water"});
+        wordList entries(allowed);
+        entries.append("clouds");
+        entries.append("interaction");
         checkKeywords(properties_, entries, true);
     }
     const wordList names(properties_.get<wordList>("clouds"));
@@ -121,37 +133,65 @@ void Foam::mpm::materialPointSystem::makeClouds()
     {
         FatalIOErrorInFunction(properties_)
             << "keyword clouds is empty." << nl
-            << "    Allowed: (water)" << exit(FatalIOError);
+            << "    Allowed: (water), (soil), (water soil)"
+            << exit(FatalIOError);
     }
+    forAll(names, i)
+    {
+        if (!allowed.found(names[i]))
+        {
+            FatalIOErrorInFunction(properties_)
+                << "keyword clouds: unknown cloud " << names[i] << nl
+                << "    Valid names: " << flatOutput(allowed)
+                << exit(FatalIOError);
+        }
+        if (names.find(names[i]) != i)
+        {
+            FatalIOErrorInFunction(properties_)
+                << "keyword clouds names " << names[i] << " twice." << nl
+                << "    Allowed: (water), (soil), (water soil)"
+                << exit(FatalIOError);
+        }
+    }
+    settings_.coupled = names.size() == 2;
 
     wordList known(names);
     known.append("clouds");
+    if (settings_.coupled) known.append("interaction");
     checkKeywords(properties_, known, settings_.strictKeywords);
 
     clouds_.setSize(names.size());
     forAll(names, i)
     {
-        if (names[i] != "water")
+        const dictionary& dict = properties_.subDict(names[i]);
+        if (names[i] == "water")
         {
-            FatalIOErrorInFunction(properties_)
-                << "keyword clouds: unknown cloud " << names[i] << nl
-                << "    Valid names: water" << exit(FatalIOError);
+            waterCloud::checkDictionary(dict, settings_.strictKeywords);
+            water_ = new waterCloud
+            (
+                names[i], mesh_, grid_, dict, settings_, cost_, g_
+            );
+            clouds_.set(i, water_);
         }
-        waterCloud::checkDictionary
+        else
+        {
+            soilCloud::checkDictionary(dict, settings_.strictKeywords);
+            soil_ = new soilCloud
+            (
+                names[i], mesh_, grid_, dict, settings_, cost_, g_
+            );
+            clouds_.set(i, soil_);
+        }
+    }
+    if (settings_.coupled)
+    {
+        interaction_.reset
         (
-            properties_.subDict(names[i]), settings_.strictKeywords
+            new waterSoilInteraction
+            (
+                properties_, settings_.strictKeywords, *water_, *soil_, cost_
+            )
         );
-        water_ = new waterCloud
-        (
-            names[i],
-            mesh_,
-            grid_,
-            properties_.subDict(names[i]),
-            settings_,
-            cost_,
-            g_
-        );
-        clouds_.set(i, water_);
     }
 }
 
@@ -309,6 +349,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     control_(mesh.solutionDict().subOrEmptyDict("MPM")),
     grid_(mesh, control_),
     water_(nullptr),
+    soil_(nullptr),
     limiter_("none"),
     flowSpeed_(0),
     firstStep_(0),
@@ -326,6 +367,12 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     findWriteIntervals();
     signalSpeed_.setSize(clouds_.size(), 0);
 }
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::mpm::materialPointSystem::~materialPointSystem()
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -389,7 +436,16 @@ void Foam::mpm::materialPointSystem::reportEffects() const
         cloud.effects(table);
         for (const auto& effect : table) row(effect[0], effect[1], effect[2]);
     }
-    row("coupling", "off", "one cloud");
+    if (interaction_.valid())
+    {
+        DynamicList<FixedList<string, 3>> table;
+        interaction_->effects(table);
+        for (const auto& effect : table) row(effect[0], effect[1], effect[2]);
+    }
+    else
+    {
+        row("coupling", "off", "one cloud");
+    }
     row
     (
         "time step",
@@ -489,6 +545,7 @@ void Foam::mpm::materialPointSystem::stop(Time& runTime)
 void Foam::mpm::materialPointSystem::particlesToGrid()
 {
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
+    if (interaction_.valid()) interaction_->mixture();
     fieldsCurrent_ = false;
 }
 
@@ -496,14 +553,21 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
 void Foam::mpm::materialPointSystem::updateStress()
 {
     const scalar deltaT = time_.deltaTValue();
-    for (materialPointCloud& cloud : clouds_) cloud.updateStress(deltaT);
+
+
+    // The pressure of the water acts on soil points, too
+    if (water_) water_->updateStress(deltaT);
+    if (soil_) soil_->updateStress(deltaT);
 }
 
 
 void Foam::mpm::materialPointSystem::updateNodes()
 {
     const scalar deltaT = time_.deltaTValue();
+
+    if (interaction_.valid()) interaction_->sharePressure();
     for (materialPointCloud& cloud : clouds_) cloud.updateNodes(deltaT);
+    if (interaction_.valid()) interaction_->applyDrag(deltaT);
 }
 
 
@@ -613,6 +677,16 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         Info<< nl;
     }
 
+    if (interaction_.valid())
+    {
+        const label packed =
+            returnReduce(interaction_->nPacked(), sumOp<label>());
+        if (packed)
+        {
+            Info<< "--> soil: " << packed << " nodes with less than 10 %"
+                << " porosity; the soil is over-compacted there" << nl;
+        }
+    }
     if (water_)
     {
         const scalar variation =

@@ -1,0 +1,163 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "granularModel.H"
+#include "dictionaryEntries.H"
+
+// Shear strength at pRes is sin(phi) pRes or less by up to sqrt(3) sin(phi)
+// (triaxial compression); with this part of the Shields stress it stays below
+// one hundredth of that stress
+static const Foam::scalar maxResidualPart = 0.005;
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<int dim>
+void Foam::mpm::granularModel::energyOf
+(
+    const soilPoints& points,
+    scalar* energy
+) const
+{
+    constexpr int n = nComponents<dim>;
+    for (label i = 0; i < points.n; ++i)
+    {
+        scalar s[n];
+        for (int c = 0; c < n; ++c) s[c] = points.stress[c][i];
+        const scalar p = -(s[0] + s[1] + s[2])/3;
+        if (p <= 0)
+        {
+            energy[i] = 0;
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) s[c] += p;
+        const scalar e = points.voidRatio[i];
+        const scalar G =
+            elasticity_.shearRatio()*elasticity_.bulkModulus(p, e);
+        energy[i] = elasticity_.volumetricEnergy(p, e)
+          + doubleDot<dim>(s, s)/(4*G);
+    }
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::granularModel::keywords
+(
+    const bool constantElasticity,
+    const wordList& own
+)
+{
+    wordList all
+    ({
+        "rhoS", "d", "e0", "nsC", "pRes", "bedLoadI", "bedLoadSpeed",
+        "suspensionViscosity"
+    });
+    all.append(granularElasticity::keywords(constantElasticity));
+    all.append(own);
+    return all;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::granularModel::granularModel
+(
+    const dictionary& coeffs,
+    const bool constantElasticity
+)
+:
+    soilModel(coeffs),
+    elasticity_(coeffs, rhoS_, constantElasticity),
+    loosestContact_(VGREAT),
+    settledContact_(e0_),
+    bedLoadI_
+    (
+        readBoundedOrDefault
+        (
+            coeffs, "bedLoadI", dimless, 1e-2, 0, GREAT
+        )
+    ),
+    bedLoadSpeed_
+    (
+        readBoundedOrDefault
+        (
+            coeffs, "bedLoadSpeed", dimVelocity, 1e-2, 0, GREAT
+        )
+    ),
+    KriegerDougherty_
+    (
+        readChoiceOrDefault
+        (
+            coeffs, "suspensionViscosity", "liquid",
+            {"liquid", "KriegerDougherty"}
+        ) == "KriegerDougherty"
+    )
+{
+    const scalar nsC =
+        readBoundedOrDefault(coeffs, "nsC", dimless, 0.4, 0, 1);
+    suspendedVoidRatio_ = (1 - nsC)/nsC;
+
+    if (KriegerDougherty_ && nsC >= 0.64)
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "keyword nsC has the value " << nsC << '.' << nl
+            << "    Allowed with KriegerDougherty: 0 < nsC < 0.64"
+            << exit(FatalIOError);
+    }
+
+    const scalar most = maxResidualPart*shieldsStress();
+    pRes_ = min(scalar(0.005), most);
+    if (coeffs.found("pRes"))
+    {
+        pRes_ = readBounded
+        (
+            coeffs, "pRes", dimPressure, 0, most, false, true
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::granularModel::stateFields() const
+{
+    return wordList
+    ({
+        "plasticStrain", "contactVoidRatio", "regime", "inertialNumber"
+    });
+}
+
+
+void Foam::mpm::granularModel::limitWaveSpeed(const scalar maxSpeed)
+{
+    elasticity_.limitWaveSpeed(maxSpeed);
+}
+
+
+Foam::scalar Foam::mpm::granularModel::waveSpeedSqr
+(
+    const scalar pressure,
+    const scalar voidRatio
+) const
+{
+    return elasticity_.waveSpeedSqr
+    (
+        elasticity_.bulkModulus(pressure, voidRatio), voidRatio
+    );
+}
+
+
+void Foam::mpm::granularModel::elasticEnergy
+(
+    const label dim,
+    const soilPoints& points,
+    scalar* energy
+) const
+{
+    if (dim == 2) energyOf<2>(points, energy);
+    else energyOf<3>(points, energy);
+}
+
+// ************************************************************************* //

@@ -1,0 +1,53 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "FlatOutput.H"
+#include "soilModel.H"
+#include "dictionaryEntries.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(soilModel, 0);
+    defineRunTimeSelectionTable(soilModel, dictionary);
+}
+}
+
+// Above this void ratio the stiffness (2.97 - e)^2 grows again
+static const Foam::scalar maxVoidRatio = 2.97;
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::soilModel::soilModel(const dictionary& coeffs)
+:
+    coeffs_(coeffs),
+    rhoS_(readPositive(coeffs, "rhoS", dimDensity)),
+    d_(readPositive(coeffs, "d", dimLength)),
+    e0_(readBounded(coeffs, "e0", dimless, 0, maxVoidRatio))
+{}
+
+
+Foam::autoPtr<Foam::mpm::soilModel> Foam::mpm::soilModel::New
+(
+    const dictionary& cloudDict,
+    const bool strictKeywords
+)
+{
+    const word name(cloudDict.get<word>("constitutiveModel"));
+    auto found = dictionaryConstructorTablePtr_->cfind(name);
+
+    if (!found.found())
+    {
+        FatalIOErrorInFunction(cloudDict)
+            << "keyword constitutiveModel: unknown soil model " << name << nl
+            << "    Valid names: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+    return found()(cloudDict.subDict(name + "Coeffs"), strictKeywords);
+}
+
+// ************************************************************************* //

@@ -1,0 +1,40 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "dragModel.H"
+#include "FlatOutput.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(dragModel, 0);
+    defineRunTimeSelectionTable(dragModel, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
+(
+    const dictionary& dict,
+    const medium& m
+)
+{
+    const word name(dict.lookupOrDefault<word>("drag", "DarcyForchheimer"));
+
+    auto found = dictionaryConstructorTablePtr_->cfind(name);
+    if (!found.found())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword drag: unknown drag model " << name << nl
+            << "    Valid names: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+    return found()(m);
+}
+
+// ************************************************************************* //

@@ -1,0 +1,34 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "noDrag.H"
+#include "addToRunTimeSelectionTable.H"
+#include <algorithm>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(noDrag, 0);
+    addToRunTimeSelectionTable(dragModel, noDrag, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::noDrag::coefficients
+(
+    const label n,
+    const scalar*,
+    const scalar*,
+    scalar* a,
+    scalar* b
+) const
+{
+    std::fill(a, a + n, 0);
+    std::fill(b, b + n, 0);
+}
+
+// ************************************************************************* //

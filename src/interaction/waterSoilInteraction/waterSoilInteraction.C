@@ -1,0 +1,289 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "waterSoilInteraction.H"
+#include "waterCloud.H"
+#include "soilCloud.H"
+#include "dictionaryEntries.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::mpm::waterSoilInteraction::volume
+(
+    materialPointCloud& cloud,
+    const label node
+) const
+{
+    const nodalFields& n = cloud.nodes();
+    return grid_.nDim() == 2 ? n.momentum[node][3] : n.volume[node];
+}
+
+
+Foam::scalar Foam::mpm::waterSoilInteraction::solidVolume
+(
+    const label node
+) const
+{
+    return
+        soil_.nodes().momentum[node][grid_.nDim()]/soil_.model().rhoS();
+}
+
+
+Foam::scalar Foam::mpm::waterSoilInteraction::waterVolume
+(
+    const label node
+) const
+{
+    return volume(water_, node);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::waterSoilInteraction::waterSoilInteraction
+(
+    const dictionary& properties,
+    const bool strictKeywords,
+    waterCloud& water,
+    soilCloud& soil,
+    costMeter& cost
+)
+:
+    grid_(water.grid()),
+    water_(water),
+    soil_(soil),
+    cost_(cost),
+    nPacked_(0)
+{
+    const dictionary dict(properties.subOrEmptyDict("interaction"));
+    checkKeywords(dict, {"drag"}, strictKeywords);
+
+    drag_ = dragModel::New
+    (
+        dict,
+        dragModel::medium
+        {
+            soil.model().d(), water.fluid().mu(), water.fluid().rho0()
+        }
+    );
+
+    fields_.resize(grid_.nNodes());
+    water_.couple(fields_);
+    soil_.couple(fields_);
+
+    for (label t = 0; t < grid_.tileSize(); ++t)
+    {
+        touching_.push_back(-grid_.tileOffset() - grid_.tileNode(t));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::waterSoilInteraction::mixture()
+{
+    cost_.start("coupling");
+
+    const label dim = grid_.nDim();
+    const std::vector<scalar>& inverseVolume =
+        water_.boundary().inverseVolume();
+    const nodalFields& soil = soil_.nodes();
+    nodalFields& water = water_.nodes();
+
+    for (const label cell : mixedCells_) fields_.mixed[cell] = 0;
+    mixedCells_.clear();
+    nodes_.clear();
+    solidFraction_.clear();
+    bulkVolume_.clear();
+    nPacked_ = 0;
+
+    // Water alone, everywhere
+    for (const auto& range : water_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            nodeVector flux = water.velocity[i];
+            flux[dim] = 1;
+            fields_.mixture[i] = flux;
+            fields_.inversePoreVolume[i] = inverseVolume[i];
+            fields_.saturation[i] = 1;
+            fields_.pressureForce[i] = nodeVector{};
+        }
+    }
+
+    // Where there is soil
+    for (const auto& range : soil_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            fields_.pressureForce[i] = nodeVector{};
+            if (!(soil.momentum[i][dim] > 0)) continue;
+
+            for (const label offset : touching_)
+            {
+                const label cell = i + offset;
+                if (cell < 0 || cell >= grid_.nNodes()) continue;
+                if (!fields_.mixed[cell])
+                {
+                    fields_.mixed[cell] = 1;
+                    mixedCells_.push_back(cell);
+                }
+            }
+
+            const bool wet = water.momentum[i][dim] > 0;
+            const scalar control = 1/inverseVolume[i];
+            const scalar solid = solidVolume(i);
+            const scalar liquid = wet ? waterVolume(i) : 0;
+            const scalar occupied =
+                min(control, max(volume(soil_, i), solid + liquid));
+
+            scalar ns = solid/occupied;
+            if (ns > 1 - minPorosity)
+            {
+                ns = 1 - minPorosity;
+                ++nPacked_;
+            }
+
+            const nodeVector& vs = soil.velocity[i];
+            const nodeVector& vw = wet ? water.velocity[i] : vs;
+            nodeVector flux{};
+            for (label d = 0; d < dim; ++d)
+            {
+                flux[d] = (1 - ns)*vw[d] + ns*vs[d];
+            }
+            flux[dim] = 1 - ns;
+
+            fields_.mixture[i] = flux;
+            fields_.inversePoreVolume[i] =
+                1/max(control - solid, minPorosity*control);
+            fields_.saturation[i] =
+                min(scalar(1), liquid/((1 - ns)*occupied));
+
+            if (wet)
+            {
+                nodes_.push_back(i);
+                solidFraction_.push_back(ns);
+                bulkVolume_.push_back(occupied*fields_.saturation[i]);
+            }
+        }
+    }
+    cost_.stop();
+}
+
+
+void Foam::mpm::waterSoilInteraction::sharePressure()
+{
+    cost_.start("coupling");
+
+    const label dim = grid_.nDim();
+    const std::vector<scalar>& inverseVolume =
+        water_.boundary().inverseVolume();
+    nodalFields& soil = soil_.nodes();
+    nodalFields& water = water_.nodes();
+
+    grid_.exchange().sum(fields_.pressureForce);
+
+    // Water takes all of it, and gives soil its share
+    for (const auto& range : water_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            water.force[i] += fields_.pressureForce[i];
+        }
+    }
+    for (const auto& range : soil_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            if (!(soil.momentum[i][dim] > 0)) continue;
+
+            const scalar solid = solidVolume(i);
+            const bool wet = water.momentum[i][dim] > 0;
+            const scalar liquid =
+                wet ? min(waterVolume(i), max(1/inverseVolume[i] - solid, 0.0))
+              : 0;
+            const nodeVector share =
+                solid/(liquid + solid)*fields_.pressureForce[i];
+            soil.force[i] += share;
+            if (wet) water.force[i] -= share;
+        }
+    }
+    cost_.stop();
+}
+
+
+void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
+{
+    if (!drag_->active()) return;
+
+    cost_.start("drag");
+
+    const label dim = grid_.nDim();
+    const label n = nodes_.size();
+    const nodalFields& soil = soil_.nodes();
+    const nodalFields& water = water_.nodes();
+    nodeField<nodeVector>& vs = soil_.nodes().velocity;
+    nodeField<nodeVector>& vw = water_.nodes().velocity;
+
+    speed_.resize(n);
+    a_.resize(n);
+    b_.resize(n);
+    for (label k = 0; k < n; ++k)
+    {
+        const label i = nodes_[k];
+        scalar speedSqr = 0;
+        for (label d = 0; d < dim; ++d) speedSqr += sqr(vw[i][d] - vs[i][d]);
+        speed_[k] = std::sqrt(speedSqr);
+    }
+    drag_->coefficients
+    (
+        n, solidFraction_.data(), speed_.data(), a_.data(), b_.data()
+    );
+
+    for (label k = 0; k < n; ++k)
+    {
+        const label i = nodes_[k];
+        const scalar mw = water.momentum[i][dim];
+        const scalar ms = soil.momentum[i][dim];
+        const scalar factor = deltaT*bulkVolume_[k]*(1/mw + 1/ms);
+        const scalar linear = 1 + factor*a_[k];
+        const scalar kept =
+            2
+           /(linear + std::sqrt(sqr(linear) + 4*factor*b_[k]*speed_[k]));
+        const scalar reduced = (1 - kept)*mw*ms/(mw + ms);
+
+        for (label d = 0; d < dim; ++d)
+        {
+            const scalar impulse = reduced*(vw[i][d] - vs[i][d]);
+            vw[i][d] -= impulse/mw;
+            vs[i][d] += impulse/ms;
+        }
+    }
+
+    // Walls take what drag brings to them
+    water_.boundary().constrain(vw);
+    soil_.boundary().constrain(vs);
+    cost_.stop();
+}
+
+
+void Foam::mpm::waterSoilInteraction::effects
+(
+    List<FixedList<string, 3>>& table
+) const
+{
+    table.append
+    (
+        FixedList<string, 3>
+        ({"coupling", "on", "pressure in gradient form"})
+    );
+    table.append
+    (
+        FixedList<string, 3>
+        ({"  drag", drag_->active() ? "on" : "off", drag_->type()})
+    );
+}
+
+// ************************************************************************* //

@@ -1,0 +1,290 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "soilCloud.H"
+#include "dictionaryEntries.H"
+#include "PstreamReduceOps.H"
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(soilCloud, 0);
+}
+}
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::mpm::soilPoints Foam::mpm::soilCloud::modelPoints
+(
+    const label begin,
+    const label end
+) const
+{
+    // The model writes to the columns; who may change the cloud is decided by
+    // the caller
+    pointStorage& points = const_cast<pointStorage&>(points_);
+
+    soilPoints s;
+    s.n = end - begin;
+    const label nStress = (grid_.nDim() == 2 ? 4 : 6);
+    for (label i = 0; i < nStress; ++i)
+    {
+        s.stress[i] = points.column(sigma_ + i) + begin;
+    }
+    s.voidRatio = points.column(voidRatio_) + begin;
+    forAll(state_, i) s.state[i] = points.column(state_[i]) + begin;
+    s.liquidViscosity = liquidViscosity_;
+    return s;
+}
+
+
+void Foam::mpm::soilCloud::findWaveSpeed()
+{
+    waveSpeedSqr_ = 0;
+    minVoidRatio_ = GREAT;
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar pressure = 0;
+        for (label d = 0; d < 3; ++d)
+        {
+            pressure -= points_.column(sigma_ + d)[p]/3;
+        }
+        waveSpeedSqr_ =
+            max(waveSpeedSqr_, model_->waveSpeedSqr(pressure, voidRatio()[p]));
+        minVoidRatio_ = min(minVoidRatio_, voidRatio()[p]);
+    }
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::soilCloud::derivedFields
+(
+    HashTable<tmp<scalarField>>& fields
+) const
+{
+    tmp<scalarField> p(new scalarField(size()));
+    tmp<scalarField> q(new scalarField(size()));
+    const label nStress = (grid_.nDim() == 2 ? 4 : 6);
+
+    for (label i = 0; i < size(); ++i)
+    {
+        const scalar s0 = points_.column(sigma_)[i];
+        const scalar s1 = points_.column(sigma_ + 1)[i];
+        const scalar s2 = points_.column(sigma_ + 2)[i];
+        const scalar mean = (s0 + s1 + s2)/3;
+
+        scalar sqr2 = sqr(s0 - mean) + sqr(s1 - mean) + sqr(s2 - mean);
+        for (label k = 3; k < nStress; ++k)
+        {
+            sqr2 += 2*sqr(points_.column(sigma_ + k)[i]);
+        }
+        p.ref()[i] = -mean;
+        q.ref()[i] = std::sqrt(1.5*sqr2);
+    }
+    fields.set("p", p);
+    fields.set("q", q);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::soilCloud::soilCloud
+(
+    const word& name,
+    const fvMesh& mesh,
+    const backgroundGrid& grid,
+    const dictionary& dict,
+    const settings& control,
+    costMeter& cost,
+    const vector& g
+)
+:
+    materialPointCloud
+    (
+        name, mesh, grid, dict, control, cost, g, nodeBoundary::stickCorners
+    ),
+    model_(soilModel::New(dict, control.strictKeywords)),
+    sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
+    voidRatio_(points_.add("voidRatio", pointStorage::scalarValue)),
+    waterMomentum_(nullptr),
+    liquidViscosity_(0),
+    liquidSoundSpeed_(0),
+    waveSpeedSqr_(0),
+    viscosity_(0),
+    minVoidRatio_(GREAT),
+    stressWork_(0)
+{
+    const wordList fields(model_->stateFields());
+    state_.setSize(fields.size());
+    forAll(fields, i)
+    {
+        state_[i] = points_.add(fields[i], pointStorage::scalarValue);
+    }
+    if (control.maxSoilSoundSpeed < GREAT)
+    {
+        model_->limitWaveSpeed(control.maxSoilSoundSpeed);
+    }
+    selectTransfer("FLIP", defaultApicRate);
+    kernels_ = newSoilKernels(*this, transfer_->affine());
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::soilCloud::checkDictionary
+(
+    const dictionary& dict,
+    const bool strictKeywords
+)
+{
+    const word model(dict.lookupOrDefault<word>("constitutiveModel", "none"));
+    checkKeywords
+    (
+        dict,
+        {
+            "constitutiveModel",
+            model + "Coeffs",
+            "transfer",
+            "apicRate",
+            "flipDampingRate"
+        },
+        strictKeywords
+    );
+}
+
+
+void Foam::mpm::soilCloud::setLiquid
+(
+    const nodeField<nodeVector>& momentum,
+    const scalar viscosity,
+    const scalar soundSpeed
+)
+{
+    waterMomentum_ = &momentum;
+    liquidViscosity_ = viscosity;
+    liquidSoundSpeed_ = soundSpeed;
+}
+
+
+void Foam::mpm::soilCloud::setState
+(
+    const label first,
+    const UList<scalar>& volume,
+    const UList<scalar>& voidRatio,
+    const UList<symmTensor>& stress
+)
+{
+    const lattice& cells = grid_.cells();
+    const label nStress = (grid_.nDim() == 2 ? 4 : 6);
+
+    forAll(volume, i)
+    {
+        points_.column(voidRatio_)[first + i] = voidRatio[i];
+        points_.column(mass_)[first + i] =
+            model_->rhoS()*volume[i]/(1 + voidRatio[i]);
+        for (label k = 0; k < nStress; ++k)
+        {
+            points_.column(sigma_ + k)[first + i] =
+                stress[i][symmComponent(cells, k)];
+        }
+    }
+    soilPoints s(modelPoints(first, first + volume.size()));
+    List<scalarField> whole(nStress, scalarField(volume.size()));
+    forAll(whole, k) s.wholeStress[k] = whole[k].data();
+    model_->initialise(grid_.nDim(), s);
+}
+
+
+void Foam::mpm::soilCloud::finishPoints()
+{
+    materialPointCloud::finishPoints();
+    findWaveSpeed();
+}
+
+
+Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
+{
+    // Undrained, the liquid in the pores stiffens the skeleton
+    const scalar porosity =
+        minVoidRatio_ < GREAT ? minVoidRatio_/(1 + minVoidRatio_) : 1;
+    return std::sqrt(waveSpeedSqr_ + sqr(liquidSoundSpeed_)/porosity);
+}
+
+
+void Foam::mpm::soilCloud::energy
+(
+    const vector& g,
+    scalar& kinetic,
+    scalar& potential,
+    scalar& elastic
+) const
+{
+    materialPointCloud::energy(g, kinetic, potential, elastic);
+
+    scalarField density(size());
+    model_->elasticEnergy
+    (
+        grid_.nDim(), modelPoints(0, size()), density.data()
+    );
+    forAll(density, p) elastic += volume(p)*density[p];
+}
+
+
+void Foam::mpm::soilCloud::readPoints()
+{
+    materialPointCloud::readPoints();
+
+    // The state file has what the last step found
+    if (waveSpeedSqr_ == 0) findWaveSpeed();
+}
+
+
+void Foam::mpm::soilCloud::readState(const dictionary& dict)
+{
+    materialPointCloud::readState(dict);
+
+    waveSpeedSqr_ = dict.lookupOrDefault<scalar>("waveSpeedSqr", 0);
+    minVoidRatio_ = dict.lookupOrDefault<scalar>("minVoidRatio", GREAT);
+    viscosity_ = dict.lookupOrDefault<scalar>("viscosity", 0);
+    if (Pstream::master())
+    {
+        stressWork_ = dict.lookupOrDefault<scalar>("stressWork", 0);
+    }
+}
+
+
+void Foam::mpm::soilCloud::writeState(dictionary& dict) const
+{
+    materialPointCloud::writeState(dict);
+
+    dict.set("waveSpeedSqr", returnReduce(waveSpeedSqr_, maxOp<scalar>()));
+    dict.set("minVoidRatio", returnReduce(minVoidRatio_, minOp<scalar>()));
+    dict.set("viscosity", returnReduce(viscosity_, maxOp<scalar>()));
+    dict.set("stressWork", returnReduce(stressWork_, sumOp<scalar>()));
+}
+
+
+void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
+{
+    auto add = [&](const string& effect, const bool on, const string& why)
+    {
+        table.append
+        (
+            FixedList<string, 3>({effect, on ? "on" : "off", why})
+        );
+    };
+    add("cloud " + name(), true, Foam::name(globalSize()) + " points");
+    add("  transfer", true, transfer_->description());
+    add("  skeleton stress", true, model_->type());
+    add
+    (
+        "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,
+        "fvSolution/MPM/maxSoilSoundSpeed"
+    );
+}
+
+// ************************************************************************* //

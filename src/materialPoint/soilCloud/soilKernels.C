@@ -1,0 +1,243 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "soilKernels.H"
+#include "soilMaterial.H"
+#include "soilCloud.H"
+#include "cloudKernelsFor.H"
+
+namespace Foam
+{
+namespace mpm
+{
+
+template<class Shape, int dim, bool affine>
+class soilKernelsFor
+:
+    public cloudKernelsFor<Shape, dim, affine>
+{
+    typedef cloudKernelsFor<Shape, dim, affine> base;
+    typedef soilMaterial<dim> material;
+
+    using base::kernels_;
+
+    //- Points that the constitutive model takes at once, about; their work
+    //  space stays in the first-level cache
+    static constexpr label chunk = 128;
+
+    soilCloud& cloud_;
+    soilWorkSpace<dim> work_;
+
+
+    material makeMaterial()
+    {
+        soilCloud& c = cloud_;
+        material m
+        {
+            c.points_.column(c.mass_),
+            c.points_.column(c.voidRatio_),
+            1/c.model_->rhoS(),
+            {},
+            soilCloud::compactionRate,
+            0,
+            &work_
+        };
+        for (int d = 0; d < dim; ++d)
+        {
+            m.gravity[d] = c.g_[c.grid_.cells().axis(d)];
+        }
+        return m;
+    }
+
+    //- What the constitutive model sees of the points begin .. end - 1
+    soilPoints modelPoints(const label begin, const label end)
+    {
+        soilCloud& c = cloud_;
+        soilPoints s(c.modelPoints(begin, end));
+        for (int i = 0; i < dim*dim; ++i)
+        {
+            s.velocityGradient[i] = work_.gradient[i].data();
+        }
+        for (int i = 0; i < work_.nStress; ++i)
+        {
+            s.wholeStress[i] = work_.stress[i].data();
+        }
+        s.solidFraction = work_.solidFraction.data();
+        s.speed = work_.speed.data();
+        s.power = c.settings_.energyBalance ? work_.power.data() : nullptr;
+        return s;
+    }
+
+public:
+
+    explicit soilKernelsFor(soilCloud& cloud)
+    :
+        base(cloud),
+        cloud_(cloud)
+    {}
+
+
+    virtual void particlesToGrid()
+    {
+        soilCloud& c = cloud_;
+
+        c.cost_.start("soil: particle-to-grid");
+        this->sumToNodes(makeMaterial());
+
+        c.cost_.start("soil: nodes");
+        this->nodalVelocities();
+
+        // The solid fraction that the grid shows, into the scalar slot
+        const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
+        const scalar inverseRhoS = 1/c.model_->rhoS();
+        this->forActiveNodes
+        (
+            [&](const label i)
+            {
+                c.nodes_.velocity[i][dim] =
+                    c.nodes_.momentum[i][dim]*inverseRhoS*inverseVolume[i];
+            }
+        );
+        c.cost_.stop();
+    }
+
+
+    virtual void updateStress(const scalar deltaT)
+    {
+        soilCloud& c = cloud_;
+        const label n = c.size();
+        const label* cell = c.points_.cell();
+        const scalar keep = 1 - c.transfer_->picFraction(deltaT);
+        const nodeField<nodeVector>* water = c.waterMomentum_;
+
+        material m(makeMaterial());
+        pointView<dim> view(c.template view<dim>());
+
+        c.waveSpeedSqr_ = 0;
+        c.viscosity_ = 0;
+        c.minVoidRatio_ = GREAT;
+
+        c.cost_.start("soil: stress and forces");
+        for (label begin = 0; begin < n;)
+        {
+            label end = min(begin + chunk, n);
+            while (end < n && cell[end] == cell[end - 1]) ++end;
+
+            work_.resize(end - begin);
+            m.begin = begin;
+            view.n = end;
+            kernels_.gradientToParticle(view, begin, m, keep, c.nodes_);
+
+            soilPoints s(modelPoints(begin, end));
+            c.model_->update(dim, s, deltaT);
+            c.waveSpeedSqr_ = max(c.waveSpeedSqr_, s.maxWaveSpeedSqr);
+            c.viscosity_ = max(c.viscosity_, s.maxViscosity);
+
+            for (label i = begin; i < end; ++i)
+            {
+                c.minVoidRatio_ = min(c.minVoidRatio_, m.voidRatio[i]);
+            }
+            if (s.power)
+            {
+                for (label i = begin; i < end; ++i)
+                {
+                    c.stressWork_ += deltaT*s.power[i - begin]*c.volume(i);
+                }
+            }
+            kernels_.forcesToGrid(view, begin, m, c.nodes_, c.coupling_, water);
+            begin = end;
+        }
+        this->exchangeForces();
+        this->filter();
+        c.cost_.stop();
+    }
+
+
+    virtual void updateNodes(const scalar deltaT)
+    {
+        soilCloud& c = cloud_;
+
+        c.cost_.start("soil: nodes");
+        this->accelerate(deltaT, [](const label, nodeVector&) {});
+        if (c.settings_.energyBalance)
+        {
+            c.stressWork_ -= this->workOfAcceleration(deltaT);
+        }
+        c.cost_.stop();
+    }
+
+
+    virtual void gridToParticles(const scalar deltaT)
+    {
+        soilCloud& c = cloud_;
+
+        c.cost_.start("soil: grid-to-particle");
+        material m(makeMaterial());
+        kernels_.gridToParticle
+        (
+            c.template view<dim>(), m, deltaT, c.nodes_, c.movers_, c.sums_
+        );
+        c.cost_.stop();
+    }
+
+
+    virtual void updateMeshFields()
+    {
+        soilCloud& c = cloud_;
+        const scalar inverseRhoS = 1/c.model_->rhoS();
+
+        this->sumToNodes(makeMaterial());
+        this->cellMeans
+        (
+            [&](const label i)
+            {
+                return c.nodes_.momentum[i][dim]*inverseRhoS;
+            },
+            [](const label, const label, const label*, const scalar*) {}
+        );
+    }
+};
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+template<class Shape, int dim>
+static cloudKernels* newSoilKernels(soilCloud& cloud, const bool affine)
+{
+    if (affine) return new soilKernelsFor<Shape, dim, true>(cloud);
+    return new soilKernelsFor<Shape, dim, false>(cloud);
+}
+
+template<class Shape>
+static cloudKernels* newSoilKernels(soilCloud& cloud, const bool affine)
+{
+    return cloud.grid().nDim() == 2
+      ? newSoilKernels<Shape, 2>(cloud, affine)
+      : newSoilKernels<Shape, 3>(cloud, affine);
+}
+
+} // End namespace mpm
+} // End namespace Foam
+
+// * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::mpm::cloudKernels> Foam::mpm::newSoilKernels
+(
+    soilCloud& cloud,
+    const bool affine
+)
+{
+    const word& shape = cloud.grid().shapeFunction();
+
+    cloudKernels* kernels =
+        shape == linear::name ? newSoilKernels<linear>(cloud, affine)
+      : shape == cubicBSpline::name
+      ? newSoilKernels<cubicBSpline>(cloud, affine)
+      : newSoilKernels<quadraticBSpline>(cloud, affine);
+
+    return autoPtr<cloudKernels>(kernels);
+}
+
+// ************************************************************************* //
