@@ -95,11 +95,11 @@ struct scene
         const std::array<int, 3>& node
     ) const
     {
-        const label T = grid->tileWidth();
+        const label T = grid->reachWidth();
         label t = 0, step = 1;
         for (label d = 0; d < grid->nDim(); ++d)
         {
-            const label o = node[d] - cell[d] - grid->tileStart();
+            const label o = node[d] - cell[d] - grid->reachStart();
             if (o < 0 || o >= T) return "out of the tile";
             t += step*o;
             step *= T;

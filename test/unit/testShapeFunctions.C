@@ -38,19 +38,19 @@ scalar definition(const cubicBSpline&, const scalar x)
 
 //- Weights of all nodes of the tile for a point at the fraction f of the cell
 template<class Shape>
-struct tileWeights
+struct reachWeights
 {
-    static constexpr int T = Shape::tileWidth;
+    static constexpr int T = Shape::reachWidth;
 
     std::array<scalar, T> w{}, q{}, g{}, x{};
 
-    explicit tileWeights(const scalar f)
+    explicit reachWeights(const scalar f)
     {
         const int first = Shape::nodeCentred && f >= 0.5;
         scalar wi[Shape::width], qi[Shape::width], gi[Shape::width];
         Shape::weights(f - first, wi, qi, gi);
 
-        for (int t = 0; t < T; ++t) x[t] = t + Shape::tileStart;
+        for (int t = 0; t < T; ++t) x[t] = t + Shape::reachStart;
         for (int i = 0; i < Shape::width; ++i)
         {
             w[first + i] = wi[i];
@@ -70,7 +70,7 @@ scalar worst(const Op& op)
     for (int i = 0; i < n; ++i)
     {
         const scalar f = scalar(i)/n;
-        const scalar value = std::abs(op(f, tileWeights<Shape>(f)));
+        const scalar value = std::abs(op(f, reachWeights<Shape>(f)));
         if (!(value <= largest)) largest = value;
     }
     return largest;
@@ -80,7 +80,7 @@ scalar worst(const Op& op)
 template<class Shape>
 void checkShape()
 {
-    constexpr int T = Shape::tileWidth;
+    constexpr int T = Shape::reachWidth;
     const std::string name(Shape::name);
 
     atMost
@@ -88,7 +88,7 @@ void checkShape()
         name + ": N against its definition",
         worst<Shape>
         (
-            [](const scalar f, const tileWeights<Shape>& t)
+            [](const scalar f, const reachWeights<Shape>& t)
             {
                 scalar e = 0;
                 for (int i = 0; i < T; ++i)
@@ -109,10 +109,10 @@ void checkShape()
         name + ": weights of the whole tile against those in reach",
         worst<Shape>
         (
-            [](const scalar f, const tileWeights<Shape>& t)
+            [](const scalar f, const reachWeights<Shape>& t)
             {
                 scalar w[T], q[T], g[T];
-                Shape::tileWeights(f, w, q, g);
+                Shape::reachWeights(f, w, q, g);
                 scalar e = 0;
                 for (int i = 0; i < T; ++i)
                 {
@@ -131,7 +131,7 @@ void checkShape()
         name + ": sum N - 1",
         worst<Shape>
         (
-            [](const scalar, const tileWeights<Shape>& t)
+            [](const scalar, const reachWeights<Shape>& t)
             {
                 scalar s = -1;
                 for (int i = 0; i < T; ++i) s += t.w[i];
@@ -146,7 +146,7 @@ void checkShape()
         name + ": first moment, sum N d",
         worst<Shape>
         (
-            [](const scalar, const tileWeights<Shape>& t)
+            [](const scalar, const reachWeights<Shape>& t)
             {
                 scalar s = 0;
                 for (int i = 0; i < T; ++i) s += t.q[i];
@@ -161,7 +161,7 @@ void checkShape()
         name + ": q - N d",
         worst<Shape>
         (
-            [](const scalar f, const tileWeights<Shape>& t)
+            [](const scalar f, const reachWeights<Shape>& t)
             {
                 scalar e = 0;
                 for (int i = 0; i < T; ++i)
@@ -181,7 +181,7 @@ void checkShape()
             name + ": sum q d - D, D = 1/gradientScale",
             worst<Shape>
             (
-                [](const scalar f, const tileWeights<Shape>& t)
+                [](const scalar f, const reachWeights<Shape>& t)
                 {
                     scalar s = -1/Shape::gradientScale;
                     for (int i = 0; i < T; ++i) s += t.q[i]*(t.x[i] - f);
@@ -197,7 +197,7 @@ void checkShape()
         name + ": gradient of the linear field 3 - 2 x",
         worst<Shape>
         (
-            [](const scalar, const tileWeights<Shape>& t)
+            [](const scalar, const reachWeights<Shape>& t)
             {
                 scalar s = 2;
                 for (int i = 0; i < T; ++i) s += t.g[i]*(3 - 2*t.x[i]);
@@ -217,9 +217,9 @@ void checkShape()
             const scalar a = 0.5*half;
             integral += 0.5/6
                *(
-                    definition(Shape(), a - (i + Shape::tileStart))
-                  + 4*definition(Shape(), a + 0.25 - (i + Shape::tileStart))
-                  + definition(Shape(), a + 0.5 - (i + Shape::tileStart))
+                    definition(Shape(), a - (i + Shape::reachStart))
+                  + 4*definition(Shape(), a + 0.25 - (i + Shape::reachStart))
+                  + definition(Shape(), a + 0.5 - (i + Shape::reachStart))
                 );
         }
         error = std::max(error, std::abs(integral - Shape::cellIntegral[i]));

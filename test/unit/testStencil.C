@@ -60,14 +60,14 @@ template<> struct definitionOf<quadraticBSpline>
 template<> struct definitionOf<cubicBSpline> { typedef cubicDefinition type; };
 
 
-//- A batch of points in one cell, what they give, and dense sums over the
+//- A batch of points in one tile, what they give, and dense sums over the
 //  tile, one node after the other
 template<class Shape, int dim>
 struct batch
 {
     typedef typename definitionOf<Shape>::type definition;
 
-    static constexpr int T = Shape::tileWidth;
+    static constexpr int T = Shape::width;
     static constexpr int size = (dim == 2 ? T*T : T*T*T);
 
     lanes f[dim];
@@ -80,7 +80,8 @@ struct batch
     {
         std::uniform_real_distribution<scalar> fraction(0, 1), any(-1, 1);
 
-        // Also the ends and the middle of the cell
+        // Also the ends and the middle of the tile
+        const scalar lower = Shape::nodeCentred ? -0.5 : 0;
         const std::array<scalar, 5> special
             ({0, 0.5, std::nextafter(0.5, 0), std::nextafter(1.0, 0), 0.25});
 
@@ -88,8 +89,8 @@ struct batch
         {
             for (int l = 0; l < nLanes; ++l)
             {
-                f[d][l] =
-                    random() % 3 ? fraction(random) : special[random() % 5];
+                f[d][l] = lower
+                  + (random() % 3 ? fraction(random) : special[random() % 5]);
             }
         }
         auto fill = [&](nodeVector& v)
@@ -102,12 +103,12 @@ struct batch
         for (nodeVector& v : tile) fill(v);
     }
 
-    //- Coordinate of a node of the tile in cells from the corner of the cell
+    //- Coordinate of a node of the tile in cells from the origin of the tile
     static scalar x(const int t, const int d)
     {
         int i = t;
         for (int k = 0; k < d; ++k) i /= T;
-        return i % T + Shape::tileStart;
+        return i % T + Shape::start;
     }
 
     scalar N(const int l, const int t) const
@@ -202,19 +203,44 @@ TEST_CASE("stencil: scatter against the dense sum")
             };
 
             batch<Shape, dim> found(b);
-            s.scatter(found.tile, n, b.value);
+            auto finish = [&](const nodalSums<Shape, dim>& sums)
+            {
+                nodeVector tile[b.size];
+                sums.finish(tile);
+                for (int t = 0; t < b.size; ++t) found.tile[t] = b.tile[t] + tile[t];
+            };
+            nodalSums<Shape, dim> plainSums, slopedSums, forceSums;
+
+            s.scatter(plainSums, n, b.value);
+            finish(plainSums);
             plain = std::max
                 (plain, difference(found.tile, dense(false, false).tile));
 
-            found = b;
-            s.scatter(found.tile, n, b.value, b.slope);
+            s.scatter(slopedSums, n, b.value, b.slope);
+            finish(slopedSums);
             sloped = std::max
                 (sloped, difference(found.tile, dense(true, false).tile));
 
-            found = b;
-            s.scatterForce(found.tile, n, b.value, found.slope, b.flux);
+            s.scatterForce(forceSums, n, b.value, found.slope, b.flux);
+            finish(forceSums);
             force = std::max
                 (force, difference(found.tile, dense(true, true).tile));
+
+            if constexpr (dim == 3)
+            {
+                lanes scalars;
+                for (int l = 0; l < nLanes; ++l) scalars[l] = b.value[l][0];
+                nodalSums<Shape, 2> rows;
+                s.scatterScalar(rows, n, scalars);
+                nodeVector row[Shape::width*Shape::width];
+                rows.finish(row);
+                for (int t = 0; t < b.size; ++t)
+                {
+                    scalar sum = row[t/Shape::width][t % Shape::width];
+                    for (int l = 0; l < n; ++l) sum -= b.N(l, t)*b.value[l][0];
+                    plain = std::max(plain, std::abs(sum));
+                }
+            }
         }
         atMost(name + ": values", plain, 1e-14);
         atMost(name + ": values and slopes", sloped, 1e-14);
@@ -299,12 +325,14 @@ TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
             const stencil<Shape, dim> s(b.f);
 
             batch<Shape, dim> found(b);
-            for (nodeVector& v : found.tile) v = nodeVector{};
-            s.scatter(found.tile, nLanes, b.value, b.slope);
+            nodalSums<Shape, dim> sumsOfTile;
+            s.scatter(sumsOfTile, nLanes, b.value, b.slope);
+            sumsOfTile.finish(found.tile);
 
             batch<Shape, dim> force(b);
-            for (nodeVector& v : force.tile) v = nodeVector{};
-            s.scatterForce(force.tile, nLanes, b.value, force.slope, b.flux);
+            nodalSums<Shape, dim> forceNodes;
+            s.scatterForce(forceNodes, nLanes, b.value, force.slope, b.flux);
+            forceNodes.finish(force.tile);
 
             for (int c = 0; c < 4; ++c)
             {

@@ -19,10 +19,13 @@ void Foam::mpm::backgroundGrid::selectShapeFunction(const dictionary& mpmDict)
     auto adopt = [&](const auto shape)
     {
         typedef decltype(shape) Shape;
-        tileWidth_ = Shape::tileWidth;
-        tileStart_ = Shape::tileStart;
-        cellIntegral_.setSize(tileWidth_);
-        for (label t = 0; t < tileWidth_; ++t)
+        tileWidth_ = Shape::width;
+        tileStart_ = Shape::start;
+        nodeCentred_ = Shape::nodeCentred;
+        reachWidth_ = Shape::reachWidth;
+        reachStart_ = Shape::reachStart;
+        cellIntegral_.setSize(reachWidth_);
+        for (label t = 0; t < reachWidth_; ++t)
         {
             cellIntegral_[t] = Shape::cellIntegral[t];
         }
@@ -203,10 +206,10 @@ void Foam::mpm::backgroundGrid::checkWallThickness() const
 
 void Foam::mpm::backgroundGrid::buildExchange()
 {
-    // Nodes that the tiles of own cells reach, and their neighbours
+    // Nodes in reach of own cells, and their neighbours
     bitSet used(nNodes());
-    const label lo = min(tileStart_, label(0)) - 1;
-    const label hi = max(tileStart_ + tileWidth_ - 1, label(1)) + 1;
+    const label lo = min(reachStart_, label(0)) - 1;
+    const label hi = max(reachStart_ + reachWidth_ - 1, label(1)) + 1;
     const bool is3D = nDim() == 3;
 
     forAll(boxCell_, celli)

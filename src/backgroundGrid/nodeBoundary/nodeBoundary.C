@@ -5,13 +5,15 @@ License
 
 #include "FlatOutput.H"
 #include "nodeBoundary.H"
+#include "frictionalFvPatchVectorField.H"
 #include "volFields.H"
 #include "localIOdictionary.H"
 #include "HashTable.H"
+#include "PstreamReduceOps.H"
 
 namespace
 {
-    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry"});
+    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry", "frictional"});
     const Foam::wordList fixedTypes({"noSlip", "fixedValue"});
     const Foam::wordList openTypes({"zeroGradient", "inletOutlet"});
     const Foam::wordList otherTypes
@@ -89,6 +91,15 @@ void Foam::mpm::nodeBoundary::findSides
             if (d < 0) continue;
 
             side[faceCells[i]][2*d + s] = kind;
+            if (isA<frictionalFvPatchVectorField>(Up))
+            {
+                friction_.set
+                (
+                    6*faceCells[i] + 2*d + s,
+                    refCast<const frictionalFvPatchVectorField>(Up)
+                   .coefficient()
+                );
+            }
             if (kind == open)
             {
                 beyondOpening_.insert
@@ -118,21 +129,23 @@ void Foam::mpm::nodeBoundary::buildStencils
 )
 {
     const label nDim = grid_.nDim();
-    const label T = grid_.tileWidth();
-    const label tileSize = grid_.tileSize();
+    const label T = grid_.reachWidth();
+    const label reachSize = grid_.reachSize();
 
     stencilIndex_.setSize(grid_.nNodes(), -1);
     label nStencils = 0;
 
-    std::vector<label> target(tileSize);
-    std::vector<nodeVector> sign(tileSize), shift(tileSize);
+    std::vector<label> target(reachSize);
+    std::vector<nodeVector> sign(reachSize), shift(reachSize);
+    const bool anyFriction = returnReduce(!friction_.empty(), orOp<bool>());
+    std::vector<label> friction(anyFriction ? nDim*reachSize : 0);
 
     forAll(side, celli)
     {
         const label cell = grid_.boxCell(celli);
         bool plain = true;
 
-        for (label t = 0; t < tileSize; ++t)
+        for (label t = 0; t < reachSize; ++t)
         {
             // Node relative to the lower corner of the cell, and on which
             // side of the cell it lies
@@ -141,13 +154,15 @@ void Foam::mpm::nodeBoundary::buildStencils
             for (label d = 0; d < 3; ++d)
             {
                 const bool solved = d < nDim;
-                o[d] = solved ? rest % T + grid_.tileStart() : 0;
+                o[d] = solved ? rest % T + grid_.reachStart() : 0;
                 rest /= T;
                 s[d] = o[d] < 0 ? -1 : o[d] > 1 ? 1 : 0;
             }
 
             nodeVector sg = ones();
             nodeVector sh{};
+            index3 wallSide;
+            wallSide = 0;
 
             for (label d = 0; d < nDim; ++d)
             {
@@ -157,6 +172,10 @@ void Foam::mpm::nodeBoundary::buildStencils
                 if (kind == slipWall || kind == fixedWall)
                 {
                     // Mirror about the wall
+                    if (friction_.found(6*celli + sideOf(d, s[d])))
+                    {
+                        wallSide[d] = s[d];
+                    }
                     o[d] = s[d] < 0 ? -o[d] : 2 - o[d];
                     if (kind == slipWall)
                     {
@@ -224,6 +243,15 @@ void Foam::mpm::nodeBoundary::buildStencils
             target[t] = node;
             sign[t] = sg;
             shift[t] = sh;
+
+            for (label d = 0; anyFriction && d < nDim; ++d)
+            {
+                // The node of the wall below the image
+                const label wall =
+                    node + ((wallSide[d] > 0) - o[d])*grid_.stride(d);
+                friction[nDim*t + d] =
+                    wallSide[d] ? 2*wall + (wallSide[d] > 0) : -1;
+            }
         }
 
         if (!plain)
@@ -232,6 +260,99 @@ void Foam::mpm::nodeBoundary::buildStencils
             target_.insert(target_.end(), target.begin(), target.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
             shift_.insert(shift_.end(), shift.begin(), shift.end());
+            frictionOf_.insert
+            (
+                frictionOf_.end(), friction.begin(), friction.end()
+            );
+        }
+    }
+}
+
+
+bool Foam::mpm::nodeBoundary::foldAlike
+(
+    const tileRecord& a,
+    const tileRecord& b
+) const
+{
+    if (a.stencil < 0 || b.stencil < 0) return a.stencil == b.stencil;
+
+    const label W = grid_.tileWidth();
+    const label R = grid_.reachWidth();
+    const label* targetA = targets(a.stencil) + a.offset;
+    const label* targetB = targets(b.stencil) + b.offset;
+    const nodeVector* signA = signs(a.stencil) + a.offset;
+    const nodeVector* signB = signs(b.stencil) + b.offset;
+    const nodeVector* shiftA = shifts(a.stencil) + a.offset;
+    const nodeVector* shiftB = shifts(b.stencil) + b.offset;
+
+    for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
+    for (label j = 0; j < W; ++j)
+    for (label i = 0; i < W; ++i)
+    {
+        const label t = i + R*(j + R*k);
+        if (targetA[t] != targetB[t]) return false;
+        for (label c = 0; c < 4; ++c)
+        {
+            if (signA[t][c] != signB[t][c]) return false;
+            if (shiftA[t][c] != shiftB[t][c]) return false;
+        }
+    }
+    return true;
+}
+
+
+void Foam::mpm::nodeBoundary::buildTiles()
+{
+    const label nDim = grid_.nDim();
+    const label R = grid_.reachWidth();
+    const label W = grid_.tileWidth();
+
+    nParts_ = grid_.nodeCentred() ? 1 << nDim : 1;
+    tileIndex_.setSize(nParts_*grid_.nNodes(), -1);
+
+    // The parts of cells around each origin
+    for (label node = 0; node < grid_.nNodes(); ++node)
+    {
+        const label firstHere = nTiles();
+
+        for (label part = 0; part < nParts_; ++part)
+        {
+            tileRecord tile{node, -1, 0, {0, 0, 0}};
+            label cell = node;
+            label reachStride = 1;
+            for (label d = 0; d < nDim; ++d)
+            {
+                const label upper = (part >> d) & 1;
+                cell -= upper*grid_.stride(d);
+                tile.first += grid_.tileStart()*grid_.stride(d);
+                tile.offset += reachStride
+                   *(upper + grid_.tileStart() - grid_.reachStart());
+                tile.origin[d] = grid_.coordinate(node)[d] + grid_.lower(d);
+                reachStride *= R;
+            }
+            if (cell < 0 || !grid_.ownCell(cell)) continue;
+
+            // Cells at a wall have parts that do not touch it
+            if (stencil(cell) >= 0)
+            {
+                const label* target = targets(stencil(cell)) + tile.offset;
+                bool plain = true;
+                for (label k = 0; k < (nDim == 3 ? W : 1); ++k)
+                for (label j = 0; j < W; ++j)
+                for (label i = 0; i < W; ++i)
+                {
+                    plain = plain
+                     && target[i + R*(j + R*k)]
+                     == tile.first + i + j*grid_.stride(1) + k*grid_.stride(2);
+                }
+                if (!plain) tile.stencil = stencil(cell);
+            }
+
+            label t = firstHere;
+            while (t < nTiles() && !foldAlike(tile, tiles_[t])) ++t;
+            if (t == nTiles()) tiles_.push_back(tile);
+            tileIndex_[nParts_*cell + part] = t;
         }
     }
 }
@@ -250,6 +371,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
     // have one (number in slot 3)
     nodeField<packed<8>> walls(grid_.nNodes(), packed<8>{});
     nodeField<nodeVector> given(grid_.nNodes(), nodeVector{});
+    nodeField<packed<8>> friction(grid_.nNodes(), packed<8>{});
     bitSet candidates(grid_.nNodes());
 
     forAll(side, celli)
@@ -270,6 +392,8 @@ void Foam::mpm::nodeBoundary::buildConstraints
                     node += ((corner >> k) & 1)*grid_.stride(k);
                 }
                 walls[node][2*d + s] += 1;
+                const auto found = friction_.cfind(6*celli + 2*d + s);
+                if (found.found()) friction[node][2*d + s] += found.val();
                 if (kind == fixedWall)
                 {
                     nodeVector value = wallVelocity[6*celli + 2*d + s];
@@ -281,6 +405,10 @@ void Foam::mpm::nodeBoundary::buildConstraints
     }
     grid_.exchange().sum(walls);
     grid_.exchange().sum(given);
+    if (returnReduce(!friction_.empty(), orOp<bool>()))
+    {
+        grid_.exchange().sum(friction);
+    }
 
     DynamicList<label> slipNodes, fixedNodes;
 
@@ -297,6 +425,22 @@ void Foam::mpm::nodeBoundary::buildConstraints
             fixedNodes.append(node);
             fixedValue_.push_back(value);
             continue;
+        }
+
+        for (label i = 0; i < 2*nDim; ++i)
+        {
+            if (friction[node][i] > 0)
+            {
+                // The mean over the sides that meet here
+                frictionNodes_.push_back
+                (
+                    frictionNode
+                    {
+                        node, i/2, i % 2 ? 1 : -1,
+                        friction[node][i]/walls[node][i]
+                    }
+                );
+            }
         }
 
         // Is every cell around the node in the given orthants missing?
@@ -389,7 +533,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
 void Foam::mpm::nodeBoundary::buildControlVolumes()
 {
     const label nDim = grid_.nDim();
-    const label T = grid_.tileWidth();
+    const label T = grid_.reachWidth();
 
     inverseVolume_.assign(grid_.nNodes(), 0);
 
@@ -398,7 +542,7 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
         const label cell = grid_.boxCell(celli);
         const label s = stencil(cell);
 
-        for (label t = 0; t < grid_.tileSize(); ++t)
+        for (label t = 0; t < grid_.reachSize(); ++t)
         {
             scalar v = grid_.cells().cellVolume()
                *grid_.cellIntegral(t % T)*grid_.cellIntegral((t/T) % T);
@@ -406,7 +550,7 @@ void Foam::mpm::nodeBoundary::buildControlVolumes()
 
             const label node =
                 s < 0
-              ? cell + grid_.tileOffset() + grid_.tileNode(t)
+              ? cell + grid_.reachOffset() + grid_.reachNode(t)
               : targets(s)[t];
             inverseVolume_[node] += v;
         }
@@ -437,12 +581,14 @@ Foam::mpm::nodeBoundary::nodeBoundary
 
     findSides(U, side, wallVelocity);
     buildStencils(side, wallVelocity);
+    buildTiles();
     buildConstraints(side, wallVelocity);
     buildControlVolumes();
 
     activeSlip_ = identity(slipNodes_.size());
     activeFixed_ = identity(fixedNodes_.size());
     activeCones_ = identity(label(cones_.size()));
+    activeFriction_ = identity(label(frictionNodes_.size()));
 }
 
 
@@ -465,6 +611,13 @@ void Foam::mpm::nodeBoundary::activate(const bitSet& active)
         if (active.test(cones_[i].node)) list.append(i);
     }
     activeCones_ = list;
+
+    list.clear();
+    for (label i = 0; i < label(frictionNodes_.size()); ++i)
+    {
+        if (active.test(frictionNodes_[i].node)) list.append(i);
+    }
+    activeFriction_ = list;
 }
 
 
@@ -511,10 +664,61 @@ void Foam::mpm::nodeBoundary::constrain
 }
 
 
+void Foam::mpm::nodeBoundary::addWallForces
+(
+    const nodeField<nodeVector>& force,
+    nodeField<nodeVector>& wallForce
+) const
+{
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        wallForce[f.node][f.direction] +=
+            f.sign*force[f.node][f.direction];
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::applyFriction
+(
+    const nodeField<nodeVector>& wallForce,
+    const nodeField<nodeVector>& momentum,
+    const scalar deltaT,
+    nodeField<nodeVector>& velocity
+) const
+{
+    const label nDim = grid_.nDim();
+
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        const scalar m = momentum[f.node][nDim];
+        if (!(m > 0)) continue;
+
+        nodeVector& v = velocity[f.node];
+        scalar speedSqr = 0;
+        for (label d = 0; d < nDim; ++d)
+        {
+            if (d != f.direction) speedSqr += sqr(v[d]);
+        }
+        const scalar speed = std::sqrt(speedSqr);
+        const scalar lost = f.coefficient*deltaT/m
+           *max(scalar(0), wallForce[f.node][f.direction]);
+        const scalar kept = lost < speed ? 1 - lost/speed : 0;
+        for (label d = 0; d < nDim; ++d)
+        {
+            if (d != f.direction) v[d] *= kept;
+        }
+    }
+}
+
+
 size_t Foam::mpm::nodeBoundary::memory() const
 {
     return
-        sizeof(label)*(stencilIndex_.size() + target_.size())
+        sizeof(label)
+       *(stencilIndex_.size() + target_.size() + tileIndex_.size())
+      + sizeof(tileRecord)*tiles_.size()
       + sizeof(nodeVector)*(sign_.size() + shift_.size())
       + sizeof(scalar)*inverseVolume_.size();
 }

@@ -187,6 +187,25 @@ Foam::scalar Foam::mpm::readPositive
 }
 
 
+void Foam::mpm::warnOutside
+(
+    const dictionary& dict,
+    const word& keyword,
+    const scalar value,
+    const scalar lower,
+    const scalar upper,
+    const string& source
+)
+{
+    if (value >= lower && value <= upper) return;
+
+    IOWarningInFunction(dict)
+        << "keyword " << keyword << " has the value " << value << '.' << nl
+        << "    Usual, from " << source.c_str() << ": " << lower << " <= "
+        << keyword << " <= " << upper << endl;
+}
+
+
 bool Foam::mpm::readSwitchOrDefault
 (
     const dictionary& dict,

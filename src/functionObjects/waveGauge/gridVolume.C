@@ -14,16 +14,16 @@ void Foam::mpm::gridVolume::forTile(const label cell, const Op& op) const
     const label stencil = cloud_.boundary().stencil(cell);
     if (stencil < 0)
     {
-        const label first = cell + grid_.tileOffset();
-        for (label t = 0; t < grid_.tileSize(); ++t)
+        const label first = cell + grid_.reachOffset();
+        for (label t = 0; t < grid_.reachSize(); ++t)
         {
-            op(t, first + grid_.tileNode(t));
+            op(t, first + grid_.reachNode(t));
         }
     }
     else
     {
         const label* target = cloud_.boundary().targets(stencil);
-        for (label t = 0; t < grid_.tileSize(); ++t) op(t, target[t]);
+        for (label t = 0; t < grid_.reachSize(); ++t) op(t, target[t]);
     }
 }
 
@@ -31,7 +31,7 @@ void Foam::mpm::gridVolume::forTile(const label cell, const Op& op) const
 template<class Shape, int dim>
 void Foam::mpm::gridVolume::sumVolumes(nodeField<scalar>& volume) const
 {
-    constexpr int T = Shape::tileWidth;
+    constexpr int T = Shape::reachWidth;
     const label* cell = cloud_.points().cell();
 
     for (label p = 0; p < cloud_.size();)
@@ -47,7 +47,7 @@ void Foam::mpm::gridVolume::sumVolumes(nodeField<scalar>& volume) const
                 const scalar xi =
                     (cloud_.x(d)[p] - grid_.cells().origin(d))
                    /grid_.cells().spacing(d);
-                Shape::tileWeights(xi - std::floor(xi), w[d], q, g);
+                Shape::reachWeights(xi - std::floor(xi), w[d], q, g);
             }
 
             const scalar V = cloud_.volume(p);
@@ -145,7 +145,7 @@ Foam::mpm::gridVolume::gridVolume(const materialPointCloud& cloud)
     grid_(cloud.grid()),
     ownVolume_(grid_.nNodes(), 0)
 {
-    const label T = grid_.tileWidth();
+    const label T = grid_.reachWidth();
     bitSet corners(grid_.nNodes());
 
     for (label celli = 0; celli < grid_.mesh().nCells(); ++celli)

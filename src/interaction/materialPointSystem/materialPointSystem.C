@@ -568,6 +568,9 @@ void Foam::mpm::materialPointSystem::updateNodes()
     if (interaction_.valid()) interaction_->sharePressure();
     for (materialPointCloud& cloud : clouds_) cloud.updateNodes(deltaT);
     if (interaction_.valid()) interaction_->applyDrag(deltaT);
+
+    // Last, so that nothing moves what friction holds
+    if (soil_) soil_->applyWallFriction(deltaT);
 }
 
 

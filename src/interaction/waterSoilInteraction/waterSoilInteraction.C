@@ -73,9 +73,12 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     water_.couple(fields_);
     soil_.couple(fields_);
 
-    for (label t = 0; t < grid_.tileSize(); ++t)
+    const label W = grid_.tileWidth();
+    for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
+    for (label j = 0; j < W; ++j)
+    for (label i = 0; i < W; ++i)
     {
-        touching_.push_back(-grid_.tileOffset() - grid_.tileNode(t));
+        touching_.push_back(-(i + j*grid_.stride(1) + k*grid_.stride(2)));
     }
 }
 
@@ -92,8 +95,8 @@ void Foam::mpm::waterSoilInteraction::mixture()
     const nodalFields& soil = soil_.nodes();
     nodalFields& water = water_.nodes();
 
-    for (const label cell : mixedCells_) fields_.mixed[cell] = 0;
-    mixedCells_.clear();
+    for (const label first : mixed_) fields_.mixed[first] = 0;
+    mixed_.clear();
     nodes_.clear();
     solidFraction_.clear();
     bulkVolume_.clear();
@@ -123,12 +126,11 @@ void Foam::mpm::waterSoilInteraction::mixture()
 
             for (const label offset : touching_)
             {
-                const label cell = i + offset;
-                if (cell < 0 || cell >= grid_.nNodes()) continue;
-                if (!fields_.mixed[cell])
+                const label first = i + offset;
+                if (first >= 0 && !fields_.mixed[first])
                 {
-                    fields_.mixed[cell] = 1;
-                    mixedCells_.push_back(cell);
+                    fields_.mixed[first] = 1;
+                    mixed_.push_back(first);
                 }
             }
 

@@ -59,12 +59,12 @@ void Foam::mpm::cellOrder::activate(const pointStorage& points)
     std::sort(cells_.begin(), cells_.end());
     for (size_t c = 0; c < cells_.size(); ++c) number_[cells_[c]] = c;
 
-    // Nodes of the tiles: row by row for each row of adjacent cells
+    // Nodes in reach: row by row for each row of adjacent cells
     for (const auto& range : ranges_)
     {
         nodes_.unset(labelRange(range.first, range.second - range.first));
     }
-    const label T = grid_.tileWidth();
+    const label T = grid_.reachWidth();
     for (size_t c = 0; c < cells_.size();)
     {
         const label first = cells_[c];
@@ -74,7 +74,7 @@ void Foam::mpm::cellOrder::activate(const pointStorage& points)
         for (label k = 0; k < (is3D ? T : 1); ++k)
         for (label j = 0; j < T; ++j)
         {
-            const label node = first + grid_.tileOffset()
+            const label node = first + grid_.reachOffset()
               + j*grid_.stride(1) + k*grid_.stride(2);
             nodes_.set(labelRange(node, n - 1 + T));
         }
@@ -96,17 +96,17 @@ void Foam::mpm::cellOrder::activate(const pointStorage& points)
 }
 
 
-void Foam::mpm::cellOrder::sort(pointStorage& points)
+void Foam::mpm::cellOrder::sort(pointStorage& points, const label nTiles)
 {
     const label n = points.size();
-    const label* cell = points.cell();
+    const label* tile = points.tile();
 
-    start_.assign(cells_.size() + 1, 0);
-    for (label p = 0; p < n; ++p) ++start_[number_[cell[p]] + 1];
-    for (size_t c = 0; c < cells_.size(); ++c) start_[c + 1] += start_[c];
+    start_.assign(nTiles + 1, 0);
+    for (label p = 0; p < n; ++p) ++start_[tile[p] + 1];
+    for (label t = 0; t < nTiles; ++t) start_[t + 1] += start_[t];
 
     order_.setSize(n);
-    for (label p = 0; p < n; ++p) order_[start_[number_[cell[p]]]++] = p;
+    for (label p = 0; p < n; ++p) order_[start_[tile[p]]++] = p;
 
     points.reorder(order_);
 }

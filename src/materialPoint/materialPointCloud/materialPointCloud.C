@@ -46,7 +46,7 @@ void Foam::mpm::materialPointCloud::activate(const bool sort)
     zeroNodes();
     order_.activate(points_);
     boundary_.activate(order_.nodes());
-    if (sort) order_.sort(points_);
+    if (sort) order_.sort(points_, boundary_.nTiles());
 }
 
 
@@ -67,6 +67,27 @@ Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
           - grid_.lower(d);
     }
     return i;
+}
+
+
+void Foam::mpm::materialPointCloud::setTile(const label point)
+{
+    const lattice& cells = grid_.cells();
+    const label cell = points_.cell()[point];
+    label part = 0;
+
+    if (grid_.nodeCentred())
+    {
+        const index3 i = grid_.coordinate(cell);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            // The same arithmetic as in the kernels
+            const scalar inverse = 1/cells.spacing(d);
+            const scalar xi = (x(d)[point] - cells.origin(d))*inverse;
+            if (xi >= i[d] + grid_.lower(d) + 0.5) part |= 1 << d;
+        }
+    }
+    points_.tile()[point] = boundary_.tileOf(cell, part);
 }
 
 
@@ -282,6 +303,7 @@ Foam::label Foam::mpm::materialPointCloud::addPoints
         }
         points_.column(id_)[first + i] = id[i];
         points_.cell()[first + i] = grid_.boxCell(meshCell[i]);
+        setTile(first + i);
     }
     return first;
 }
@@ -347,6 +369,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
             else
             {
                 returnFromWall(p);
+                setTile(p);
                 inactive = inactive || !order_.active(points_.cell()[p]);
             }
             continue;
@@ -384,6 +407,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         if (rank == Pstream::myProcNo())
         {
             points_.cell()[p] = grid_.index(i);
+            setTile(p);
             inactive = inactive || !order_.active(points_.cell()[p]);
         }
         else
@@ -443,6 +467,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
                 points_.append(incoming.cdata() + k, 0);
                 const label p = points_.size() - 1;
                 points_.cell()[p] = grid_.index(boxCoordinate(p));
+                setTile(p);
                 inactive = inactive || !order_.active(points_.cell()[p]);
             }
         }

@@ -317,6 +317,7 @@ void Foam::mpm::materialPointCloud::readPoints()
                 << " setMaterialPoints?" << exit(FatalError);
         }
         points_.cell()[p] = grid_.index(i);
+        setTile(p);
     }
     findMaxSpeed();
     activate(false);

@@ -12,6 +12,7 @@ void Foam::mpm::pointStorage::setSize(const label n)
 {
     for (auto& column : columns_) column.resize(n + nLanes, 0);
     cell_.resize(n, -1);
+    tile_.resize(n, -1);
     size_ = n;
 }
 
@@ -73,6 +74,7 @@ void Foam::mpm::pointStorage::remove(const label point)
 {
     for (auto& column : columns_) column[point] = column[size_ - 1];
     cell_[point] = cell_[size_ - 1];
+    tile_[point] = tile_[size_ - 1];
     setSize(size_ - 1);
 }
 
@@ -86,9 +88,12 @@ void Foam::mpm::pointStorage::reorder(const labelUList& order)
         column.swap(scratch_);
     }
 
-    cellScratch_.resize(size_);
-    for (label i = 0; i < size_; ++i) cellScratch_[i] = cell_[order[i]];
-    cell_.swap(cellScratch_);
+    labelScratch_.resize(size_);
+    for (auto* labels : {&cell_, &tile_})
+    {
+        for (label i = 0; i < size_; ++i) labelScratch_[i] = (*labels)[order[i]];
+        labels->swap(labelScratch_);
+    }
 }
 
 // ************************************************************************* //

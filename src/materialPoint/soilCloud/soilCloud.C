@@ -128,6 +128,10 @@ Foam::mpm::soilCloud::soilCloud
     {
         model_->limitWaveSpeed(control.maxSoilSoundSpeed);
     }
+    if (returnReduce(boundary_.frictional(), orOp<bool>()))
+    {
+        nodes_.wallForce.assign(grid.nNodes(), nodeVector{});
+    }
     selectTransfer("FLIP", defaultApicRate);
     kernels_ = newSoilKernels(*this, transfer_->affine());
 }
@@ -167,6 +171,17 @@ void Foam::mpm::soilCloud::setLiquid
     waterMomentum_ = &momentum;
     liquidViscosity_ = viscosity;
     liquidSoundSpeed_ = soundSpeed;
+}
+
+
+void Foam::mpm::soilCloud::applyWallFriction(const scalar deltaT)
+{
+    if (nodes_.wallForce.empty()) return;
+
+    boundary_.applyFriction
+    (
+        nodes_.wallForce, nodes_.momentum, deltaT, nodes_.velocity
+    );
 }
 
 
@@ -280,6 +295,7 @@ void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
     add("cloud " + name(), true, Foam::name(globalSize()) + " points");
     add("  transfer", true, transfer_->description());
     add("  skeleton stress", true, model_->type());
+    add("  wall friction", !nodes_.wallForce.empty(), "patch type frictional");
     add
     (
         "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,

@@ -108,7 +108,7 @@ public:
     {
         soilCloud& c = cloud_;
         const label n = c.size();
-        const label* cell = c.points_.cell();
+        const label* tile = c.points_.tile();
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         const nodeField<nodeVector>* water = c.waterMomentum_;
 
@@ -123,7 +123,7 @@ public:
         for (label begin = 0; begin < n;)
         {
             label end = min(begin + chunk, n);
-            while (end < n && cell[end] == cell[end - 1]) ++end;
+            while (end < n && tile[end] == tile[end - 1]) ++end;
 
             work_.resize(end - begin);
             m.begin = begin;
@@ -150,6 +150,13 @@ public:
             begin = end;
         }
         this->exchangeForces();
+        if (!c.nodes_.wallForce.empty())
+        {
+            // Before the pressure of the water adds to the forces: friction
+            // is of the effective stress
+            c.grid_.exchange().sum(c.nodes_.wallForce);
+            c.boundary_.addWallForces(c.nodes_.force, c.nodes_.wallForce);
+        }
         this->filter();
         c.cost_.stop();
     }

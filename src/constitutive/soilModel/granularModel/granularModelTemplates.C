@@ -69,6 +69,8 @@ bool Foam::mpm::granularModel::contactStep
 
     if (q > flow.ratio(0, dH)*p)
     {
+        flow.setDilatancy();
+
         // Beyond this even the softest elastic strain is used up
         const scalar farthest =
             std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
@@ -86,7 +88,7 @@ bool Foam::mpm::granularModel::contactStep
 
             const scalar H = flow.ratio(dl, dH);
             const scalar residual = q - 3*G*dl - H*p;
-            scale = H*p/q;
+            scale = min(H*p/q, scalar(1));
             step.plasticContraction = plastic;
 
             if (mag(residual) <= tolerance*q || upper - lower <= 1e-15*farthest)
@@ -119,8 +121,9 @@ bool Foam::mpm::granularModel::contactStep
         if (q > H*p) scale = H*p/q;
     }
 
-    // Contact is lost where expansion leaves no pressure
-    if (step.contraction < 0)
+    // Contact is lost where expansion leaves no pressure; what rounding makes
+    // of a strain of constant volume is no expansion
+    if (step.contraction < -1e-9*std::sqrt(c2))
     {
         const scalar lost = step.plasticContraction - step.contraction;
         const scalar stored = (XStart - XRes)/step.a;
@@ -244,7 +247,14 @@ void Foam::mpm::granularModel::advance
             step.a = elasticity_.coefficient<L>(middle);
             step.limits = elasticity_.rangeAt<L>(middle);
 
-            carries = contactStep<Model, dim, L>(model, step);
+            if constexpr (Model::ownIntegrator)
+            {
+                carries = model.template integrate<dim, L>(step);
+            }
+            else
+            {
+                carries = contactStep<Model, dim, L>(model, step);
+            }
             if (carries)
             {
                 p = step.p;

@@ -1,0 +1,39 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "criticalState.H"
+#include "dictionaryEntries.H"
+#include "unitConversion.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::criticalState::criticalState(const dictionary& coeffs)
+:
+    tanPhiC_
+    (
+        std::tan(degToRad(readBounded(coeffs, "phiC", dimless, 0, 90)))
+    ),
+    eRef_(readBounded(coeffs, "eRef", dimless, 0, 2.97)),
+    logERef_(std::log(eRef_)),
+    lambda_(readBounded(coeffs, "lambda", dimless, 0, GREAT, true)),
+    xi_(readPositive(coeffs, "xi", dimless)),
+    Ad_(readBounded(coeffs, "Ad", dimless, 0, GREAT, true)),
+    kp_(readPositive(coeffs, "kp", dimless)),
+    np_(readBounded(coeffs, "np", dimless, 0, GREAT, true)),
+    nd_(readBounded(coeffs, "nd", dimless, 0, GREAT, true))
+{
+    warnOutside(coeffs, "Ad", Ad_, 0.5, 1.5, "the paper's Table A1");
+    warnOutside(coeffs, "kp", kp_, 1e-4, 1e-2, "the paper's Table A1");
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::criticalState::keywords()
+{
+    return wordList({"phiC", "eRef", "lambda", "xi", "Ad", "kp", "np", "nd"});
+}
+
+// ************************************************************************* //

@@ -1,0 +1,47 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "muIRheology.H"
+#include "dictionaryEntries.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::muIRheology::muIRheology
+(
+    const dictionary& coeffs,
+    const scalar rhoS,
+    const scalar d,
+    const bool dispersive
+)
+:
+    rhoS_(rhoS),
+    d_(d),
+    I0_(readBoundedOrDefault(coeffs, "I0", dimless, 0.28, 0, GREAT)),
+    muS_(readPositive(coeffs, "muS", dimless)),
+    muD_(readBounded(coeffs, "muD", dimless, muS_, GREAT, true))
+{
+    if (dispersive)
+    {
+        PhiMax_ = readBoundedOrDefault
+        (
+            coeffs, "PhiMax", dimless, 0.65, 0, 1
+        );
+        PhiC_ = readBounded(coeffs, "PhiC", dimless, PhiMax_, 1, false, true);
+        factor_ =
+            2*d*readPositive(coeffs, "dPhi", dimless)*std::sqrt(rhoS);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::muIRheology::keywords(const bool dispersive)
+{
+    wordList names({"I0", "muS", "muD"});
+    if (dispersive) names.append(wordList({"PhiC", "dPhi", "PhiMax"}));
+    return names;
+}
+
+// ************************************************************************* //
