@@ -146,6 +146,11 @@ void Foam::mpm::soilCloud::checkDictionary
 )
 {
     const word model(dict.lookupOrDefault<word>("constitutiveModel", "none"));
+
+    // The constructor says which models there are
+    const auto& models = *soilModel::dictionaryConstructorTablePtr_;
+    if (!models.found(model)) return;
+
     checkKeywords
     (
         dict,
