@@ -2,11 +2,11 @@
 """Writes metrics.json of a finished case and prints it as a short table.
 
     $MPMFOAM_PYTHON $MPMFOAM_DIR/etc/python/caseMetrics.py \\
-        [--case <dir>] [--cloud water] [--front 0.05 0.10] [--energy 0.3]
+        [--case <dir>] [--front 0.05 0.10] [--energy 0.3]
 
-What there is decides what comes out: the log, the points, and the function
-objects materialPointEnergy, frontPosition and waveGauge under the names
-energy, front and gauge.
+What there is decides what comes out: the log, the points of each cloud, and
+the function objects materialPointEnergy, frontPosition, waveGauge and
+scourProfile under the names energy, front, gauge and scour.
 """
 
 import argparse
@@ -32,20 +32,34 @@ def fromLog(path):
         "cpuTime": log.cpuTime,
         "nsPerPointStep": log.nsPerPointStep,
         "dtLimiter": log.dtLimiter,
-        "pointsLeft": log.left,
         "wallContacts": log.wallContacts,
     }
 
 
-def fromPoints(case, cloud):
-    times = [t for t in case.times() if case.hasCloud(t, cloud)]
-    first, last = (case.cloudField(t, cloud, "mass")
-                   for t in (times[0], times[-1]))
-    return {
-        "pointCount": len(last),
-        "mass": last.sum(),
-        "massError": last.sum()/first.sum() - 1,
-    }
+def fromPoints(case):
+    """Points and mass of each cloud at the end. massError: inside + left
+    over what was there at the start, the worst of the clouds."""
+    times = case.times()
+    out = {}
+    clouds = [c for c in ["water", "soil"] if case.hasCloud(times[0], c)]
+    if not clouds:
+        raise FileNotFoundError("no points")
+    for cloud in clouds:
+        with_ = [t for t in times if case.hasCloud(t, cloud)]
+        inside, left = [], []
+        for time in (with_[0], with_[-1]):
+            inside.append(case.cloudField(time, cloud, "mass"))
+            left.append(case.cloudState(time, cloud)["leftMass"])
+        start = inside[0].sum() + left[0]
+        figures = {"pointCount": len(inside[1]),
+                   "pointsLeft": int(case.cloudState(with_[-1], cloud)["left"]),
+                   "mass": inside[1].sum(),
+                   "massError": (inside[1].sum() + left[1])/start - 1}
+        out.update({name + (f"_{cloud}" if len(clouds) > 1 else ""): value
+                    for name, value in figures.items()})
+    if len(clouds) > 1:
+        out["massError"] = max((out[f"massError_{c}"] for c in clouds), key=abs)
+    return out
 
 
 def fromEnergy(case, times):
@@ -80,21 +94,39 @@ def fromGauge(case):
     return {"meanLevelChange": level[-1]/level[0] - 1}
 
 
+def fromScour(case):
+    """The deepest hole and when it was, shape at the end; the largest part of
+    the grains that was ever in suspension"""
+    rows = readDat(case.path, "scour", "scourProfile.dat")
+    time, depth, position, dune, dunePosition, eroded, deposited, suspended = \
+        rows.T[:8]
+    deepest = depth.argmax()
+    out = {"scourDepthMax": depth[deepest], "timeOfScourMax": time[deepest],
+           "scourDepthEnd": depth[-1], "scourPosition": position[-1],
+           "duneHeight": dune[-1], "dunePosition": dunePosition[-1],
+           "erodedVolume": eroded[-1], "depositedVolume": deposited[-1],
+           "suspendedFraction": suspended.max()}
+    if rows.shape[1] > 8:
+        out["reservoirLevelEnd"] = rows[-1, 8]
+    # Positions of what is not there
+    return {name: value for name, value in out.items() if np.isfinite(value)}
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--case", default=".", type=Path)
-    parser.add_argument("--cloud", default="water")
     parser.add_argument("--front", nargs="*", type=float, default=[])
     parser.add_argument("--energy", nargs="*", type=float, default=[])
     arguments = parser.parse_args()
 
     case = Case(arguments.case)
     out = fromLog(case.path/"log.mpmFoam")
-    for part in (lambda: fromPoints(case, arguments.cloud),
+    for part in (lambda: fromPoints(case),
                  lambda: fromEnergy(case, arguments.energy),
                  lambda: fromFront(case, arguments.front),
-                 lambda: fromGauge(case)):
+                 lambda: fromGauge(case),
+                 lambda: fromScour(case)):
         try:
             out.update(part())
         except FileNotFoundError:

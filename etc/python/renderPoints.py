@@ -1,13 +1,15 @@
 #!/usr/bin/env pvpython
-"""Pictures of the points of a cloud, as ParaView reads them from the case.
+"""Pictures of the points of a case, as ParaView reads them.
 
     xvfb-run -a pvpython $MPMFOAM_DIR/etc/python/renderPoints.py \\
-        [--case <dir>] [--cloud water] [--output <dir>] 0.05 0.10 0.15
+        [--case <dir>] [--cloud soil] [--output <dir>] 0.05 0.10 0.15
 
-One PNG per time (default: the last), coloured by speed, with the outline of
-the mesh and the time. A case without time directories of its own is read from
-its processor directories; --decomposed asks for that. Prints for each time how
-many points ParaView found: `<time> s: <n> points, <file>`.
+One PNG per time (default: the last), <clouds>_t<time>.png: water coloured by
+speed, soil over it in the colour of sand, with the outline of the mesh and the
+time. In 2D what the mesh leaves out of its box is solid, and grey. A case
+without time directories of its own is read from its processor directories;
+--decomposed asks for that. Prints for each time how many points ParaView found:
+`<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`.
 """
 
 import argparse
@@ -21,12 +23,14 @@ from paraview import servermanager
 from paraview.simple import (
     CellCenters, ColorBy, CreateRenderView, ExtractSurface, FeatureEdges,
     GetColorTransferFunction, GetScalarBar, Hide, MergeBlocks,
-    OpenFOAMReader, Render, SaveScreenshot, Show, Text, TrivialProducer)
+    OpenFOAMReader, Plane, Render, SaveScreenshot, Show, Text, TrivialProducer)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 WIDTH = 1200        # pixels
 TEXT = [0.1, 0.1, 0.1]
+SAND = [0.80, 0.62, 0.36]
+SOLID = [0.62, 0.62, 0.64]
 
 
 def parse():
@@ -34,7 +38,9 @@ def parse():
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("times", nargs="*", type=float)
     parser.add_argument("--case", default=".", type=Path)
-    parser.add_argument("--cloud", default="water")
+    parser.add_argument("--cloud", action="append", choices=["water", "soil"],
+                        help="cloud to show, may be repeated (default: all of"
+                             "\nthe case)")
     parser.add_argument("--output", type=Path,
                         help="directory of the pictures (default: the case)")
     parser.add_argument("--decomposed", action="store_true",
@@ -42,10 +48,14 @@ def parse():
     parser.add_argument("--maxSpeed", type=float,
                         help="end of the colour scale in m/s (default: the"
                              "\n99.9 percentile over all pictures)")
+    parser.add_argument("--window", nargs=4, type=float,
+                        metavar=("X0", "X1", "Y0", "Y1"),
+                        help="part of a 2D case to show [m]")
     return parser.parse_args()
 
 
-def openCase(case, cloud, decomposed):
+def openCase(case, clouds, decomposed):
+    """Reader of the clouds named (None: all there are)"""
     # ParaView takes the case directory from any file in it
     stub = case/"case.foam"
     stub.touch()
@@ -58,11 +68,16 @@ def openCase(case, cloud, decomposed):
     reader.SkipZeroTime = 0
     reader.Refresh()
     reader.UpdatePipelineInformation()
-    region = f"lagrangian/{cloud}"
-    if region not in reader.MeshRegions.Available:
-        sys.exit(f"{case}: ParaView finds no {region}; there is "
-                 + " ".join(reader.MeshRegions.Available))
-    reader.MeshRegions = ["internalMesh", region]
+    available = reader.MeshRegions.Available
+    if clouds is None:
+        clouds = [c for c in ["water", "soil"]
+                  if f"lagrangian/{c}" in available] or ["water"]
+    regions = [f"lagrangian/{cloud}" for cloud in clouds]
+    for region in regions:
+        if region not in available:
+            sys.exit(f"{case}: ParaView finds no {region}; there is "
+                     + " ".join(available))
+    reader.MeshRegions = ["internalMesh", *regions]
     reader.CellArrays = []
     reader.LagrangianArrays = ["U"]
     return reader
@@ -80,11 +95,12 @@ def leaves(data):
 
 
 def split(data):
-    """(points of the cloud, mesh): the blocks of what the reader gives"""
+    """(points, mesh): the blocks of what the reader gives; points as pairs
+    (name of the cloud, block)"""
     clouds, meshes = [], []
-    for _, block in leaves(data):
+    for name, block in leaves(data):
         if block.IsA("vtkPolyData"):
-            clouds.append(block)
+            clouds.append((name, block))
         elif block.GetNumberOfCells():
             meshes.append(block)
     return clouds, meshes
@@ -103,11 +119,17 @@ def upAxis(case):
     return np.array([0.0, 1.0, 0.0])
 
 
-def setCamera(view, points, cellSize, up):
-    """Whole mesh in view. Returns pixels per metre."""
+def isFlat(points, cellSize):
+    return np.ptp(points[:, 2]) < 1.5*cellSize
+
+
+def setCamera(view, points, cellSize, up, window=None):
+    """Whole mesh, or a window of it, in view. Returns pixels per metre."""
     low, high = points.min(axis=0), points.max(axis=0)
+    flat = isFlat(points, cellSize)
+    if window and flat:
+        low[0], high[0], low[1], high[1] = window
     centre, extent = (low + high)/2, high - low
-    flat = extent[2] < 1.5*cellSize
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = list(centre)
     if flat:
@@ -134,7 +156,40 @@ def setCamera(view, points, cellSize, up):
     return pixels
 
 
-def show(points, speed, view, maxSpeed, pixelSize):
+def paint(display, colour):
+    """One colour, whatever the light"""
+    display.ColorArrayName = ["POINTS", ""]
+    display.AmbientColor = display.DiffuseColor = colour
+    display.Ambient, display.Diffuse, display.Specular = 1, 0, 0
+
+
+def showSolids(surface, view, points, cellSize):
+    """The box of a 2D mesh in grey, and the mesh on it in white"""
+    low, high = points.min(axis=0), points.max(axis=0)
+    display = Show(surface, view)
+    display.SetRepresentationType("Surface")
+    paint(display, [1, 1, 1])
+    display.Position = [0, 0, -2*cellSize]
+    box = Plane(Origin=[low[0], low[1], low[2]],
+                Point1=[high[0], low[1], low[2]],
+                Point2=[low[0], high[1], low[2]])
+    display = Show(box, view)
+    display.SetRepresentationType("Surface")
+    paint(display, SOLID)
+    display.Position = [0, 0, -3*cellSize]
+
+
+def showSoil(points, view, pixelSize, lift):
+    """In front of the water in its pores"""
+    display = Show(points, view)
+    display.SetRepresentationType("Points")
+    display.PointSize = pixelSize
+    paint(display, SAND)
+    display.Position = lift
+    return display
+
+
+def showWater(points, view, maxSpeed, pixelSize):
     display = Show(points, view)
     display.SetRepresentationType("Points")
     display.PointSize = pixelSize
@@ -144,7 +199,7 @@ def show(points, speed, view, maxSpeed, pixelSize):
     scale.VectorMode = "Magnitude"
     scale.RescaleTransferFunction(0, maxSpeed)
     bar = GetScalarBar(scale, view)
-    bar.Title, bar.ComponentTitle = "speed [m/s]", ""
+    bar.Title, bar.ComponentTitle = "speed of the water [m/s]", ""
     bar.Orientation = "Horizontal"
     bar.WindowLocation = "Any Location"
     bar.Position = [0.30, 0.03]
@@ -160,10 +215,12 @@ def show(points, speed, view, maxSpeed, pixelSize):
 
 def main():
     arguments = parse()
-    case, cloud = arguments.case, arguments.cloud
+    case = arguments.case
     output = arguments.output or case
     output.mkdir(parents=True, exist_ok=True)
-    reader = openCase(case, cloud, arguments.decomposed)
+    reader = openCase(case, arguments.cloud, arguments.decomposed)
+    shown = "_".join(r.split("/")[1] for r in reader.MeshRegions
+                     if r.startswith("lagrangian/"))
 
     available = list(reader.TimestepValues)
     if not available:
@@ -179,7 +236,8 @@ def main():
         found[time] = clouds
         speeds += [np.linalg.norm(vtk_to_numpy(
             block.GetPointData().GetArray("U")), axis=1)
-            for block in clouds if block.GetNumberOfPoints()]
+            for name, block in clouds
+            if name == "water" and block.GetNumberOfPoints()]
     speeds = np.concatenate(speeds or [np.zeros(1)])
     maxSpeed = arguments.maxSpeed or float(np.percentile(speeds, 99.9)) or 1.0
 
@@ -194,13 +252,20 @@ def main():
     view.UseColorPaletteForBackground = 0
     view.OrientationAxesVisibility = 0
     up = upAxis(case)
-    pixels = setCamera(view, meshPoints, cellSize, up)
+    pixels = setCamera(view, meshPoints, cellSize, up, arguments.window)
 
     surface = ExtractSurface(Input=MergeBlocks(Input=reader))
     outline = Show(FeatureEdges(Input=surface, BoundaryEdges=0,
                                 FeatureAngle=30), view)
     outline.AmbientColor = outline.DiffuseColor = TEXT
     outline.LineWidth = 1.5
+    if isFlat(meshPoints, cellSize):
+        showSolids(surface, view, meshPoints, cellSize)
+
+    # In front of the water as the camera sees it
+    towards = np.array(view.CameraPosition) - np.array(view.CameraFocalPoint)
+    lift = list(cellSize*towards/np.linalg.norm(towards)) \
+        if isFlat(meshPoints, cellSize) else [0, 0, 0]
 
     label = Text()
     labelDisplay = Show(label, view)
@@ -209,30 +274,37 @@ def main():
     labelDisplay.Color = TEXT
 
     for time in times:
-        blocks = [b for b in found[time] if b.GetNumberOfPoints()]
-        count = sum(b.GetNumberOfPoints() for b in blocks)
+        blocks = [(name, b) for name, b in found[time]
+                  if b.GetNumberOfPoints()]
+        counts = {}
         view.ViewTime = time
         reader.UpdatePipeline(time)
         label.Text = f"t = {time:.4g} s"
 
         producers = []
-        for block in blocks:
+        for name, block in blocks:
+            counts[name] = counts.get(name, 0) + block.GetNumberOfPoints()
             producer = TrivialProducer()
             producer.GetClientSideObject().SetOutput(block)
             producer.UpdatePipeline()
             points = vtk_to_numpy(block.GetPoints().GetData())
-            spacing = pointSpacing(points, corners)
-            show(producer, speeds, view, maxSpeed, max(1.5, spacing*pixels))
+            size = max(1.5, pointSpacing(points, corners)*pixels)
+            if name == "soil":
+                showSoil(producer, view, size, lift)
+            else:
+                showWater(producer, view, maxSpeed, size)
             producers.append(producer)
 
         # The first rendering of a view moves its camera
         Render(view)
-        setCamera(view, meshPoints, cellSize, up)
-        path = output/f"{cloud}_t{time:.10g}.png"
+        setCamera(view, meshPoints, cellSize, up, arguments.window)
+        path = output/f"{shown}_t{time:.10g}.png"
         SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
         for producer in producers:
             Hide(producer, view)
-        print(f"{time:.10g} s: {count} points, {path}")
+        number = ", ".join(f"{n} points of {name}" if len(counts) > 1
+                           else f"{n} points" for name, n in counts.items())
+        print(f"{time:.10g} s: {number or '0 points'}, {path}")
 
 
 def pointSpacing(points, corners):

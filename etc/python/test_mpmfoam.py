@@ -130,7 +130,10 @@ def testLog(tmp_path):
     path.write_text(
         "Courant Number mean: 0.1 max: 0.4\n"
         "deltaT = 0.001 limiter: water sound step: 1\n"
-        "water: points 9, max speed 1 m/s, put back from walls 3\nTime = 0.001\n\n"
+        "water: points 9, max speed 1 m/s, left through openings 5, put back from"
+        " walls 3\n"
+        "soil: points 4, max speed 0.1 m/s, left through openings 2\n"
+        "Time = 0.001\n\n"
         "ExecutionTime = 0.5 s  ClockTime = 1 s\n\n"
         "Courant Number mean: 0.1 max: 0.3\n"
         "deltaT = 0.0005 limiter: advection\nTime = 0.0015\n"
@@ -144,7 +147,8 @@ def testLog(tmp_path):
     assert log.dtLimiter == "water sound"
     assert (log.deltaTMin, log.deltaTMax) == (0.0005, 0.002)
     assert log.courantMax == 0.4
-    assert (log.wallContacts, log.left) == (3, 0)
+    assert (log.wallContacts, log.left) == (3, 7)
+    assert log.leftOf == {"water": 5, "soil": 2}
 
 
 def testMetrics(tmp_path):

@@ -14,10 +14,13 @@ ANNOTATED = ROOT/"etc"/"caseDicts"/"annotated"
 
 # Where the keywords of a source file are explained; the longest path counts
 EXPLAINED_IN = {
-    "src/materialPoint/materialPointSystem": "fvSolution",
+    "src/interaction/materialPointSystem": "fvSolution",
+    "src/interaction/dragModel": "materialPointProperties",
+    "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
     "src/backgroundGrid/nodeBoundary": "U.water",
     "src/materialPoint/waterCloud": "materialPointProperties",
+    "src/materialPoint/soilCloud": "materialPointProperties",
     "src/materialPoint/transfer": "materialPointProperties",
     "src/constitutive": "materialPointProperties",
     "src/materialPoint/pointRegion": "setMaterialPointsDict",
@@ -112,13 +115,16 @@ def testDefault(source, entry):
 @pytest.mark.parametrize("family, base, name", [
     ("src/materialPoint/transfer", "transferScheme", "materialPointProperties"),
     ("src/materialPoint/pointRegion", "pointRegion", "setMaterialPointsDict"),
+    ("src/interaction/dragModel", "dragModel", "materialPointProperties"),
 ])
 def testModels(family, base, name):
     models = [d.name for d in (ROOT/family).iterdir() if d.is_dir()]
     assert len(models) > 2
     for model in models:
+        # The word none is no C++ class name
+        word = "none" if model == "noDrag" else model
         if model != base:
-            assert re.search(rf"\b{model}\b", explained(name)), model
+            assert re.search(rf"\b{word}\b", explained(name)), model
 
 
 @pytest.mark.parametrize("kind", ["slip", "fixed", "open"])
@@ -126,7 +132,8 @@ def testPatchTypes(kind):
     text = (ROOT/"src/backgroundGrid/nodeBoundary/nodeBoundary.C").read_text()
     body = re.search(rf"{kind}Types\(\{{([^}}]*)\}}\)", text)[1]
     for patchType in re.findall(r'"(\w+)"', body):
-        assert f"type            {patchType};" in explained("U.water")
+        name = "U.soil" if patchType == "frictional" else "U.water"
+        assert f"type            {patchType};" in explained(name)
 
 
 # --- a case made of nothing else ------------------------------------------
@@ -224,7 +231,7 @@ def testAccepted(tmp_path):
     for name, place in [("materialPointProperties", "constant"),
                         ("setMaterialPointsDict", "system"),
                         ("fvSolution", "system"), ("controlDict", "system"),
-                        ("U.water", "0")]:
+                        ("U.water", "0"), ("U.soil", "0")]:
         (tmp_path/place).mkdir(exist_ok=True)
         shutil.copy(ANNOTATED/name, tmp_path/place)
     write(tmp_path/"constant/g",
@@ -240,7 +247,7 @@ def testAccepted(tmp_path):
 
     run(tmp_path, "blockMesh")
     text = run(tmp_path, "setMaterialPoints")
-    for region in ["reservoir", "dam", "drop", "body", "pool"]:
+    for region in ["reservoir", "dam", "drop", "body", "pool", "bed"]:
         assert re.search(rf"region {region}: [1-9]\d* points", text)
 
     run(tmp_path, "foamDictionary", "system/controlDict",
@@ -249,5 +256,6 @@ def testAccepted(tmp_path):
     assert text.rstrip().endswith("End")
     assert "unknown keyword" not in text
     for output in ["energy/0/energy.dat", "front/0/front.dat",
-                   "gauge/0/waveGauge.dat", "pressure/0/p"]:
+                   "gauge/0/waveGauge.dat", "scour/0/scourProfile.dat",
+                   "scour/0/profile.csv", "pressure/0/p"]:
         assert (tmp_path/"postProcessing"/output).stat().st_size > 0

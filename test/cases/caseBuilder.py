@@ -30,6 +30,7 @@ AXES = "xyz"
 SIDES = [a + end for a in AXES for end in ("min", "max")]
 G = 9.81
 RHO = 1000
+RHO_S = 2650
 
 # No single application of these tests takes longer, in s
 TIMEOUT = 600
@@ -106,7 +107,8 @@ class Setup:
              that is not named belongs to the patch walls
     wall     condition of U.water on the patch walls
     points   per cell and direction
-    energy   with the function object materialPointEnergy, each 10 steps"""
+    energy   with the function object materialPointEnergy, each 10 steps
+    soilRegions  with a cloud soil; without regions of water it is alone"""
     cells: tuple
     h: object
     regions: dict
@@ -123,10 +125,21 @@ class Setup:
     placement: dict = field(default_factory=dict)
     functions: dict = field(default_factory=dict)
     energy: bool = True
+    soilRegions: dict = field(default_factory=dict)
+    soil: dict = field(default_factory=dict)
+    soilWall: object = "noSlip"
+    interaction: dict = field(default_factory=lambda: {
+        "drag": "DarcyForchheimer"})
 
     def __post_init__(self):
         if self.g is None:
             self.g = (0, -G, 0) if self.dim == 2 else (0, 0, -G)
+
+    @property
+    def clouds(self):
+        if not self.soilRegions:
+            return ["water"]
+        return ["water", "soil"] if self.regions else ["soil"]
 
     @property
     def dim(self):
@@ -180,7 +193,19 @@ class Setup:
                  "weaklyCompressibleNewtonianCoeffs": fluid,
                  "transfer": "APIC"}
         merge(water, self.water)
-        return {"clouds": "(water)", "water": water}
+        if self.clouds == ["water"]:
+            return {"clouds": "(water)", "water": water}
+
+        soil = {"constitutiveModel": "DruckerPrager",
+                "DruckerPragerCoeffs": {
+                    "rhoS": RHO_S, "d": 0.85e-3, "e0": 0.695, "E0": 216,
+                    "n": 0.5, "nu": 0.2, "phi": 35, "psi": 0},
+                "transfer": "FLIP", "flipDampingRate": 20}
+        merge(soil, self.soil)
+        if self.clouds == ["soil"]:
+            return {"clouds": "(soil)", "soil": soil}
+        return {"clouds": "(water soil)", "water": water, "soil": soil,
+                "interaction": self.interaction}
 
     def controlDict(self):
         control = {
@@ -205,19 +230,21 @@ class Setup:
     def setMaterialPointsDict(self):
         water = {"pointsPerDirection": self.points, "placement": "regular"}
         merge(water, self.placement)
-        return {"water": {**water, "regions": self.regions}}
+        regions = {"water": self.regions, "soil": self.soilRegions}
+        return {cloud: {**water, "regions": regions[cloud]}
+                for cloud in self.clouds}
 
     def fvSolution(self):
         mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5}
         merge(mpm, self.mpm)
         return {"MPM": mpm}
 
-    def velocity(self):
-        """0/U.water"""
+    def velocity(self, wall):
+        """0/U.<cloud>"""
         def condition(text):
             return text if isinstance(text, dict) else {"type": text}
 
-        patches = {"walls": condition(self.wall)}
+        patches = {"walls": condition(wall)}
         patches.update({side: condition(kind[1])
                         for side, kind in self.sides.items()})
         if self.dim == 2:
@@ -295,7 +322,9 @@ class Setup:
         """The case directory; returns the case to run"""
         path = Path(path)
         files = {
-            "0/U.water": (self.velocity(), "volVectorField"),
+            **{f"0/U.{cloud}": (self.velocity(
+                {"water": self.wall, "soil": self.soilWall}[cloud]),
+                "volVectorField") for cloud in self.clouds},
             "constant/g": (self.gravity(), "uniformDimensionedVectorField"),
             "constant/materialPointProperties":
                 (self.properties(), "dictionary"),
@@ -454,9 +483,11 @@ class RunningCase:
 
     def rewrite(self):
         """The dictionaries again; 0 and the mesh stay"""
-        keep = (self.path/"0"/"U.water").read_bytes()
+        keep = {path: path.read_bytes()
+                for path in (self.path/"0").glob("U.*")}
         self.setup.write(self.path)
-        (self.path/"0"/"U.water").write_bytes(keep)
+        for path, content in keep.items():
+            path.write_bytes(content)
 
     def waitForEnd(self, process, limit=30):
         """Exit status; None if it had to be killed"""
@@ -504,17 +535,11 @@ class RunningCase:
         order = np.argsort(values["id"], kind="stable")
         return Points(**{f: v[order] for f, v in values.items()})
 
-    def state(self, time_=None):
-        """uniform/materialPoints of the cloud water: numbers by keyword"""
+    def state(self, time_=None, cloud="water"):
+        """uniform/materialPoints of a cloud: numbers by keyword"""
         case = self.case
         name = case.times()[-1] if time_ is None else str(time_)
-        for root in [self.path, self.path/"processor0"]:
-            path = root/name/"uniform"/"materialPoints"
-            if path.is_file():
-                break
-        found = re.search(r"water\s*\{(.*?)\}", path.read_text(), re.DOTALL)
-        return {key: float(value) for key, value in re.findall(
-            r"(\w+)\s+([-+0-9.e]+);", found[1])}
+        return case.cloudState(name, cloud)
 
     def mechanicalEnergy(self, time_=None):
         """Kinetic and potential energy; this from the mesh's lower corner"""

@@ -22,7 +22,7 @@ from renderPoints import openCase, split  # noqa: E402
 def count(reader, time):
     reader.UpdatePipeline(time)
     x, U = [np.empty((0, 3))], [np.empty((0, 3))]
-    for cloud in split(servermanager.Fetch(reader))[0]:
+    for _, cloud in split(servermanager.Fetch(reader))[0]:
         if cloud.GetNumberOfPoints():
             x.append(vtk_to_numpy(cloud.GetPoints().GetData()))
             array = cloud.GetPointData().GetArray("U")
@@ -38,7 +38,7 @@ def main():
     out = {}
     for case in sys.argv[1:]:
         path, _, decomposed = case.partition(":")
-        reader = openCase(Path(path), "water", bool(decomposed))
+        reader = openCase(Path(path), ["water"], bool(decomposed))
         out[case] = {f"{time:.6g}": count(reader, time)
                      for time in reader.TimestepValues}
     print(json.dumps(out))

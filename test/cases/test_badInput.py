@@ -388,6 +388,9 @@ CASES = [
     Bad("wordForANumber", {
         "file": PROPERTIES, "keyword": r"\brho0\b", "value": "heavy"},
         setup=fluid(rho0="heavy")),
+    Bad("twoNumbers", {
+        "file": PROPERTIES, "keyword": r"\brho0\b", "value": r"1000 2000",
+        "allowed": "one number"}, setup=fluid(rho0="1000 2000")),
     Bad("gamma", {
         "file": PROPERTIES, "keyword": r"\bgamma\b", "value": r"0\.5",
         "allowed": r"1 < gamma"}, setup=fluid(gamma=0.5)),

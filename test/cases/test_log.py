@@ -79,7 +79,7 @@ def testCostTable(run, tmp_path, figures, ranks):
     total = rows.pop("total")
     figures.show("parts", len(rows))
     for part in ["particle-to-grid", "grid-to-particle", "stress and forces"]:
-        figures.holds(f"part {part}", part in rows)
+        figures.holds(f"part water: {part}", f"water: {part}" in rows)
     share = sum(row[1] for row in rows.values())
     figures.atMost("parts: sum of % of run, distance to 100",
                    abs(share - 100), 3)

@@ -119,6 +119,8 @@ TEST_CASE("transfer: a full domain has a saturation of one")
                 s.fill(n, [](const point&) { return 1; });
                 s.cloud().relocate(0);
                 s.cloud().particlesToGrid();
+                // Finds the saturation first
+                s.cloud().updateStress(0);
 
                 scalar worst = 0;
                 label nodes = 0;
@@ -145,6 +147,8 @@ TEST_CASE("transfer: a full domain has a saturation of one")
     s.fill(3, [](const point&) { return 1; });
     s.cloud().relocate(0);
     s.cloud().particlesToGrid();
+    // Finds the saturation first
+    s.cloud().updateStress(0);
     scalar worst = 0;
     for (label i = 0; i < s.grid().nNodes(); ++i)
     {

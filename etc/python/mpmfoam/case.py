@@ -54,6 +54,18 @@ class Case:
                 f"{self.path}: no lagrangian/{cloud}/{name} at {time}")
         return np.concatenate(parts)
 
+    def cloudState(self, time, cloud):
+        """Numbers of a cloud in uniform/materialPoints, sums over all ranks:
+        nPoints, left, leftMass, wallContacts, ..."""
+        for root in [self.path, *self.processors]:
+            path = root/time/"uniform"/"materialPoints"
+            if path.is_file():
+                break
+        found = re.search(rf"^{cloud}\s*\{{(.*?)\}}", path.read_text(),
+                          re.DOTALL | re.MULTILINE)
+        return {key: float(value) for key, value in re.findall(
+            r"(\w+)\s+([-+0-9.e]+);", found[1])}
+
     def field(self, time, name):
         """The internal field of a vol<Type>Field, e.g. alpha.water"""
         return np.concatenate(

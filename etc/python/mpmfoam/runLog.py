@@ -21,9 +21,18 @@ class RunLog:
     deltaTMax: float = None
     deltaTSum: float = 0.0
     courantMax: float = None
-    left: int = 0                   # points that left through openings
-    wallContacts: int = 0           # points that were put back from walls
     limiters: Counter = field(default_factory=Counter)
+    # By cloud: points that left through openings, or were put back from walls
+    leftOf: dict = field(default_factory=dict)
+    wallContactsOf: dict = field(default_factory=dict)
+
+    @property
+    def left(self):
+        return sum(self.leftOf.values())
+
+    @property
+    def wallContacts(self):
+        return sum(self.wallContactsOf.values())
 
     @property
     def dtLimiter(self):
@@ -74,12 +83,14 @@ def _readLine(log, line):
         log.courantMax = max(float(found[1]), log.courantMax or 0)
         return
 
-    found = re.search(r"left through openings (\d+)", line)
+    found = re.match(r"(\w+): points \d+, max speed", line)
     if found:
-        log.left = int(found[1])
-    found = re.search(r"put back from walls (\d+)", line)
-    if found:
-        log.wallContacts = int(found[1])
+        cloud = found[1]
+        for counts, text in [(log.leftOf, "left through openings"),
+                             (log.wallContactsOf, "put back from walls")]:
+            number = re.search(rf"{text} (\d+)", line)
+            if number:
+                counts[cloud] = int(number[1])
         return
 
     found = re.search(

@@ -84,6 +84,14 @@ Foam::scalar readQuantity
             << "    Allowed: a number, with the dimensions " << dims
             << " or none" << exit(FatalIOError);
     }
+    if (is.nRemainingTokens())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value " << found
+            << ", more than one number." << nl
+            << "    Allowed: one number, with the dimensions " << dims
+            << " or none" << exit(FatalIOError);
+    }
     return t.number();
 }
 

@@ -123,6 +123,24 @@ Foam::scalar Foam::mpm::granularElasticity::bulkModulus
 }
 
 
+Foam::scalar Foam::mpm::granularElasticity::compression
+(
+    const scalar p,
+    const scalar e
+) const
+{
+    return forLaw
+    (
+        law_,
+        [&](auto l)
+        {
+            constexpr law L = decltype(l)::value;
+            return measure<L>(p, rangeAt<L>(e))/coefficient<L>(e);
+        }
+    );
+}
+
+
 Foam::scalar Foam::mpm::granularElasticity::volumetricEnergy
 (
     const scalar p,

@@ -202,12 +202,15 @@ void Foam::mpm::materialPointSystem::findFieldControls()
     const wordHashSet onPoints
     ({
         "materialPointEnergy", "frontPosition", "waveGauge", "massBalance",
-        "scourProfile", "materialPointHDF5", "vtkCloud", "dataCloud",
-        "cloudInfo", "timeActivatedFileUpdate", "runTimeControl", "abort"
+        "materialPointHDF5", "vtkCloud", "dataCloud", "cloudInfo",
+        "timeActivatedFileUpdate", "runTimeControl", "abort"
     });
 
     // ... and those that look at fields only when they write
-    const wordHashSet onWrite({"probes", "patchProbes", "sets", "surfaces"});
+    const wordHashSet onWrite
+    ({
+        "probes", "patchProbes", "sets", "surfaces", "scourProfile"
+    });
 
     const dictionary* functions =
         time_.controlDict().findDict("functions");

@@ -189,6 +189,9 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
     {
         runTime.setTime(value, time_.timeIndex());
     }
+
+    // Function objects look at them before the first step
+    for (materialPointCloud& cloud : clouds_) cloud.updateMeshFields();
 }
 
 

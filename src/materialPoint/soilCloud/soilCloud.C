@@ -110,6 +110,8 @@ Foam::mpm::soilCloud::soilCloud
     model_(soilModel::New(dict, control.strictKeywords)),
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
     voidRatio_(points_.add("voidRatio", pointStorage::scalarValue)),
+    compression_(-1),
+    compressionGradient_(-1),
     waterMomentum_(nullptr),
     liquidViscosity_(0),
     liquidSoundSpeed_(0),
@@ -123,6 +125,13 @@ Foam::mpm::soilCloud::soilCloud
     forAll(fields, i)
     {
         state_[i] = points_.add(fields[i], pointStorage::scalarValue);
+    }
+    if (control.smoothing && model_->hasCompression())
+    {
+        compression_ =
+            points_.add("compressionLack", pointStorage::scalarValue);
+        compressionGradient_ =
+            points_.add("compressionGradient", pointStorage::vectorValue);
     }
     if (control.maxSoilSoundSpeed < GREAT)
     {
@@ -146,6 +155,11 @@ void Foam::mpm::soilCloud::checkDictionary
 )
 {
     const word model(dict.lookupOrDefault<word>("constitutiveModel", "none"));
+
+    // The constructor says which models there are
+    const auto& models = *soilModel::dictionaryConstructorTablePtr_;
+    if (!models.found(model)) return;
+
     checkKeywords
     (
         dict,
@@ -295,6 +309,10 @@ void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
     add("cloud " + name(), true, Foam::name(globalSize()) + " points");
     add("  transfer", true, transfer_->description());
     add("  skeleton stress", true, model_->type());
+    add
+    (
+        "  pressure smoothing", compression_ >= 0, "fvSolution/MPM/smoothing"
+    );
     add("  wall friction", !nodes_.wallForce.empty(), "patch type frictional");
     add
     (

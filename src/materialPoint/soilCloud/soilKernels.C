@@ -34,6 +34,8 @@ class soilKernelsFor
     material makeMaterial()
     {
         soilCloud& c = cloud_;
+        const bool smooth = c.compression_ >= 0;
+
         material m
         {
             c.points_.column(c.mass_),
@@ -41,11 +43,17 @@ class soilKernelsFor
             1/c.model_->rhoS(),
             {},
             soilCloud::compactionRate,
+            smooth ? c.points_.column(c.compression_) : nullptr,
+            {},
+            soilCloud::smoothingFraction*c.maxWaveSpeed()
+           /c.grid_.cells().minSpacing(),
             0,
             &work_
         };
         for (int d = 0; d < dim; ++d)
         {
+            m.compressionGradient[d] =
+                smooth ? c.points_.column(c.compressionGradient_ + d) : nullptr;
             m.gravity[d] = c.g_[c.grid_.cells().axis(d)];
         }
         return m;
@@ -134,6 +142,10 @@ public:
             c.model_->update(dim, s, deltaT);
             c.waveSpeedSqr_ = max(c.waveSpeedSqr_, s.maxWaveSpeedSqr);
             c.viscosity_ = max(c.viscosity_, s.maxViscosity);
+            if (m.compression)
+            {
+                c.model_->elasticCompression(s, m.compression + begin);
+            }
 
             for (label i = begin; i < end; ++i)
             {
@@ -167,7 +179,26 @@ public:
         soilCloud& c = cloud_;
 
         c.cost_.start("soil: nodes");
-        this->accelerate(deltaT, [](const label, nodeVector&) {});
+        if (c.compression_ >= 0)
+        {
+            // The mean compression; ghost nodes have their own
+            this->accelerate
+            (
+                deltaT,
+                [&](const label i, nodeVector& v)
+                {
+                    const nodalFields& nodes = c.nodes_;
+                    const scalar unfolded =
+                        nodes.momentum[i][dim] + nodes.ghostMass[i];
+                    v[dim] =
+                        unfolded > 0 ? nodes.force[i][dim]/unfolded : 0;
+                }
+            );
+        }
+        else
+        {
+            this->accelerate(deltaT, [](const label, nodeVector&) {});
+        }
         if (c.settings_.energyBalance)
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);

@@ -47,7 +47,7 @@ class waterKernelsFor
             {},
             correct ? waterCloud::correctionRate*courant : 0,
             correct ? waterCloud::bedCorrectionRate*perSpeed : 0,
-            waterCloud::smoothingRate*courant,
+            1 - std::exp(-waterCloud::smoothingRate*courant),
             c.minPressure_
         };
         for (int d = 0; d < dim; ++d)

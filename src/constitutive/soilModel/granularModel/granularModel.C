@@ -149,6 +149,31 @@ Foam::scalar Foam::mpm::granularModel::waveSpeedSqr
 }
 
 
+void Foam::mpm::granularModel::elasticCompression
+(
+    const soilPoints& points,
+    scalar* compression
+) const
+{
+    for (label i = 0; i < points.n; ++i)
+    {
+        const scalar e = points.voidRatio[i];
+        const scalar open = points.state[CONTACT_VOID_RATIO][i];
+        if (open > 0)
+        {
+            compression[i] = -std::log((1 + e)/(1 + open));
+        }
+        else
+        {
+            const scalar p =
+               -(points.stress[0][i] + points.stress[1][i]
+              + points.stress[2][i])/3;
+            compression[i] = elasticity_.compression(p, e);
+        }
+    }
+}
+
+
 void Foam::mpm::granularModel::elasticEnergy
 (
     const label dim,

@@ -1,0 +1,366 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "scourProfile.H"
+#include "soilCloud.H"
+#include "dictionaryEntries.H"
+#include "gravityMeshObject.H"
+#include "OSspecific.H"
+#include "PstreamReduceOps.H"
+#include "addToRunTimeSelectionTable.H"
+#include <limits>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(scourProfile, 0);
+    addToRunTimeSelectionTable(functionObject, scourProfile, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::label Foam::mpm::scourProfile::findVertical
+(
+    const dictionary& dict,
+    bool& upward
+) const
+{
+    const vector g = meshObjects::gravity::New(mesh_.time()).value();
+    const lattice& cells = cloud().grid().cells();
+
+    label vertical = 0;
+    for (label d = 1; d < cells.nDim(); ++d)
+    {
+        if (mag(g[cells.axis(d)]) > mag(g[cells.axis(vertical)])) vertical = d;
+    }
+    if (mag(g[cells.axis(vertical)]) < VSMALL)
+    {
+        FatalIOErrorInFunction(dict)
+            << "function object " << name() << ": a profile of the bed needs"
+            << " gravity to know what is up, but the value in constant/g is "
+            << g << exit(FatalIOError);
+    }
+    upward = g[cells.axis(vertical)] < 0;
+    return vertical;
+}
+
+
+Foam::label Foam::mpm::scourProfile::findDirection
+(
+    const dictionary& dict,
+    const label vertical
+) const
+{
+    const vector direction
+    (
+        dict.lookupOrDefault<vector>("direction", vector(1, 0, 0))
+    );
+    const lattice& cells = cloud().grid().cells();
+
+    DynamicList<vector> allowed;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        if (d == vertical) continue;
+
+        vector axis(Zero);
+        axis[cells.axis(d)] = 1;
+        if (mag(direction & axis) > (1 - 1e-6)*mag(direction) + VSMALL)
+        {
+            return d;
+        }
+        allowed.append(axis);
+    }
+    FatalIOErrorInFunction(dict)
+        << "keyword direction is " << direction << '.' << nl
+        << "    Allowed: a horizontal direction of the mesh, one of "
+        << allowed << exit(FatalIOError);
+    return -1;
+}
+
+
+void Foam::mpm::scourProfile::readBedFraction(const dictionary& dict)
+{
+    const soilCloud* soil = dynamic_cast<const soilCloud*>(&cloud());
+    if (!soil)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword cloud is " << cloud().name() << '.' << nl
+            << "    Allowed for " << type() << ": a cloud of soil"
+            << exit(FatalIOError);
+    }
+    bedFraction_ = readBoundedOrDefault
+    (
+        dict, "bedFraction", dimless, 1/(1 + soil->model().e0()), 0, 1
+    );
+}
+
+
+void Foam::mpm::scourProfile::readReservoir(const dictionary& dict)
+{
+    reservoir_ = Tuple2<scalar, scalar>(GREAT, -GREAT);
+    if (!dict.found("reservoir")) return;
+
+    reservoir_ = dict.get<Tuple2<scalar, scalar>>("reservoir");
+    for (label s = 0; s < surfaces_->nStations(); ++s)
+    {
+        const scalar x = surfaces_->coordinate(s);
+        if (x >= reservoir_.first() && x <= reservoir_.second()) return;
+    }
+    FatalIOErrorInFunction(dict)
+        << "keyword reservoir is " << reservoir_
+        << ": no column of cells lies between." << nl
+        << "    Allowed: two coordinates, first < last, between "
+        << surfaces_->coordinate(0) << " and "
+        << surfaces_->coordinate(surfaces_->nStations() - 1)
+        << exit(FatalIOError);
+}
+
+
+void Foam::mpm::scourProfile::findInitial()
+{
+    const word property("initialBed");
+
+    if (foundProperty(property))
+    {
+        getProperty(property, initial_);
+    }
+    if (initial_.size() != surfaces_->nColumns())
+    {
+        if (cloud().stepCount())
+        {
+            WarningInFunction
+                << "function object " << name() << ": the bed of an earlier"
+                << " start is not in " << mesh_.time().timePath()
+                << "/uniform/functionObjects. Scour counts from time "
+                << mesh_.time().timeName() << '.' << endl;
+        }
+        initial_ = find().bed;
+
+        // An entry of a dictionary has no words for not a number
+        for (scalar& z : initial_)
+        {
+            if (std::isnan(z)) z = -GREAT;
+        }
+    }
+    setProperty(property, initial_);
+}
+
+
+Foam::mpm::columnSurfaces::heights Foam::mpm::scourProfile::find() const
+{
+    auto alpha = [&](const word& cloudName)
+    {
+        return mesh_.findObject<volScalarField>
+        (
+            IOobject::groupName("alpha", cloudName)
+        );
+    };
+    return surfaces_->find
+    (
+        *alpha(cloud().name()), alpha(waterName_), bedFraction_
+    );
+}
+
+
+Foam::scalar Foam::mpm::scourProfile::suspendedFraction
+(
+    const scalarField& bed
+) const
+{
+    const materialPointCloud& soil = cloud();
+    const scalar h = soil.grid().cells().spacing(vertical_);
+
+    scalar above = 0, all = 0;
+    for (label p = 0; p < soil.size(); ++p)
+    {
+        const scalar z = surfaces_->heightOf(soil.x(vertical_)[p]);
+        const scalar m = soil.mass()[p];
+        all += m;
+        if (z > bed[surfaces_->column(soil.points().cell()[p])] + h) above += m;
+    }
+    reduce(above, sumOp<scalar>());
+    reduce(all, sumOp<scalar>());
+    return all > 0 ? above/all : 0;
+}
+
+
+Foam::scalar Foam::mpm::scourProfile::reservoirLevel
+(
+    const scalarField& water
+) const
+{
+    scalar sum = 0;
+    label n = 0;
+    forAll(water, c)
+    {
+        const scalar x = surfaces_->coordinate(surfaces_->station(c));
+        if
+        (
+            x >= reservoir_.first() && x <= reservoir_.second()
+         && !std::isnan(water[c])
+        )
+        {
+            sum += water[c];
+            ++n;
+        }
+    }
+    return n ? sum/n : std::numeric_limits<scalar>::quiet_NaN();
+}
+
+
+void Foam::mpm::scourProfile::writeProfile() const
+{
+    const columnSurfaces::heights h(find());
+    if (!writeToFile() || !Pstream::master()) return;
+
+    const label n = surfaces_->nStations();
+    auto mean = [&](const scalarField& z, const label station)
+    {
+        scalar sum = 0;
+        label number = 0;
+        for (label c = station; c < z.size(); c += n)
+        {
+            if (std::isnan(z[c])) continue;
+            sum += z[c];
+            ++number;
+        }
+        return number ? sum/number : std::numeric_limits<scalar>::quiet_NaN();
+    };
+
+    const fileName directory(baseFileDir()/prefix_/mesh_.time().timeName());
+    mkDir(directory);
+    OFstream os(directory/"profile.csv");
+    initStream(os);
+    os  << "x,bed,water" << nl;
+    for (label s = 0; s < n; ++s)
+    {
+        os  << surfaces_->coordinate(s) << ',' << mean(h.bed, s) << ','
+            << mean(h.water, s) << nl;
+    }
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::scourProfile::keywords() const
+{
+    return wordList({"water", "direction", "bedFraction", "reservoir"});
+}
+
+
+void Foam::mpm::scourProfile::readEntries(const dictionary& dict)
+{
+    readBedFraction(dict);
+    waterName_ = dict.lookupOrDefault<word>("water", "water");
+
+    bool upward = true;
+    vertical_ = findVertical(dict, upward);
+    surfaces_.reset
+    (
+        new columnSurfaces
+        (
+            cloud().grid(), findDirection(dict, vertical_), vertical_, upward
+        )
+    );
+    readReservoir(dict);
+
+    // Not again when controlDict is read again
+    if (initial_.empty()) findInitial();
+}
+
+
+Foam::stringList Foam::mpm::scourProfile::description() const
+{
+    return stringList
+    ({
+        "Change of the bed since the first start: lengths [m], volumes "
+      + string(cloud().grid().nDim() == 2 ? "per width [m2]" : "[m3]"),
+        "Part of the grains more than a cell above the bed [-]; level of the"
+        " reservoir [m]"
+    });
+}
+
+
+Foam::wordList Foam::mpm::scourProfile::columns() const
+{
+    wordList names
+    ({
+        "scourDepth", "scourPosition", "duneHeight", "dunePosition",
+        "erodedVolume", "depositedVolume", "suspendedFraction"
+    });
+    if (reservoir_.first() <= reservoir_.second())
+    {
+        names.append("reservoirLevel");
+    }
+    return names;
+}
+
+
+Foam::scalarList Foam::mpm::scourProfile::values() const
+{
+    const columnSurfaces::heights h(find());
+    const scalar nan = std::numeric_limits<scalar>::quiet_NaN();
+
+    scalarList v({0, nan, 0, nan, 0, 0, 0});
+    forAll(h.bed, c)
+    {
+        if (std::isnan(h.bed[c])) continue;
+
+        const scalar rise = h.bed[c] - initial_[c];
+        const scalar x = surfaces_->coordinate(surfaces_->station(c));
+        if (-rise > v[0])
+        {
+            v[0] = -rise;
+            v[1] = x;
+        }
+        if (rise > v[2])
+        {
+            v[2] = rise;
+            v[3] = x;
+        }
+        v[4] += max(scalar(0), -rise)*surfaces_->area();
+        v[5] += max(scalar(0), rise)*surfaces_->area();
+    }
+    v[6] = suspendedFraction(h.bed);
+
+    if (reservoir_.first() <= reservoir_.second())
+    {
+        v.append(reservoirLevel(h.water));
+    }
+    return v;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::scourProfile::scourProfile
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    cloudTimeSeries(name, runTime, dict, "scourProfile"),
+    waterName_("water"),
+    vertical_(-1),
+    bedFraction_(0),
+    reservoir_(GREAT, -GREAT)
+{
+    start(dict);
+    writeProfile();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::mpm::scourProfile::execute()
+{
+    if (mesh_.time().writeTime()) writeProfile();
+    return true;
+}
+
+// ************************************************************************* //
