@@ -21,11 +21,16 @@ template<class Model, int dim, Foam::mpm::granularElasticity::law L>
 bool Foam::mpm::granularModel::contactStep
 (
     const Model& model,
+    const typename Model::strengthBlock& strengths,
+    const label j,
     granularStep<dim>& step
 ) const
 {
     constexpr int n = nComponents<dim>;
-    constexpr scalar tolerance = 1e-9;
+
+    // Of q; the plastic strain is wrong by as much of the elastic strain. The
+    // stress lies on the yield surface in any case
+    constexpr scalar tolerance = 1e-6;
     constexpr int maxIterations = 100;
 
     const auto& limits = step.limits;
@@ -60,7 +65,7 @@ bool Foam::mpm::granularModel::contactStep
 
     typename Model::template flowRule<dim> flow
     (
-        model, step, sTrial, q, pStart, p
+        model, strengths, j, step, sTrial, q, pStart, p
     );
 
     scalar dH, dPlastic;
@@ -178,8 +183,19 @@ void Foam::mpm::granularModel::advance
     scalar maxModulus = 0;
     scalar maxViscosity = 0;
 
+    typename Model::strengthBlock strengths;
+
     for (label i = 0; i < points.n; ++i)
     {
+        const label j = i % strengthBlockSize;
+        if (j == 0)
+        {
+            model.template findStrengths<dim>
+            (
+                points, i, min(points.n, i + strengthBlockSize), deltaT,
+                strengths
+            );
+        }
         const soilRates<dim> rates(points, i);
         const scalar trace = rates.trace();
         const scalar e0 = points.voidRatio[i];
@@ -253,7 +269,10 @@ void Foam::mpm::granularModel::advance
             }
             else
             {
-                carries = contactStep<Model, dim, L>(model, step);
+                carries = contactStep<Model, dim, L>
+                (
+                    model, strengths, j, step
+                );
             }
             if (carries)
             {
