@@ -199,7 +199,8 @@ void Foam::mpm::granularModel::advance
         const soilRates<dim> rates(points, i);
         const scalar trace = rates.trace();
         const scalar e0 = points.voidRatio[i];
-        scalar e = (1 + e0)*expStrain(trace*deltaT) - 1;
+        // In this form constant volume keeps e to the last digit
+        scalar e = e0 + (1 + e0)*(expStrain(trace*deltaT) - 1);
 
         scalar de[n];
         for (int c = 0; c < n; ++c)
