@@ -60,20 +60,17 @@ void Foam::mpm::elastoplasticMuI::findStrengths
 ) const
 {
     const scalar* const open = points.state[CONTACT_VOID_RATIO];
-    bool any = false;
-    for (label i = first; i < last; ++i) any |= open[i] <= 0;
-    // Points that close in this step begin at the least pressure
-    if (!any)
+    // Separated points need none, unless they close in this step; counts, not
+    // flags, make vector loops
+    const scalar* const* L = points.velocityGradient;
+    int64_t needed = 0;
+    for (label i = first; i < last; ++i)
     {
-        const scalar* const* L = points.velocityGradient;
-        for (label i = first; i < last; ++i)
-        {
-            const scalar trace =
-                dim == 2 ? L[0][i] + L[3][i] : L[0][i] + L[4][i] + L[8][i];
-            any |= trace < 0;
-        }
-        if (!any) return;
+        const scalar trace =
+            dim == 2 ? L[0][i] + L[3][i] : L[0][i] + L[4][i] + L[8][i];
+        needed += (open[i] <= 0) | (trace < 0);
     }
+    if (!needed) return;
 
     const scalar* const xx = points.stress[0] + first;
     const scalar* const yy = points.stress[1] + first;

@@ -33,6 +33,10 @@ bool Foam::mpm::granularModel::contactStep
     constexpr scalar tolerance = 1e-6;
     constexpr int maxIterations = 100;
 
+    // Error of the direction whose strength counts; the strength errs by less
+    // than twice as much
+    constexpr scalar maxTurn = 1e-3;
+
     const auto& limits = step.limits;
 
     const scalar pStart = step.p;
@@ -72,16 +76,46 @@ bool Foam::mpm::granularModel::contactStep
     scalar scale = 1;
     step.plasticContraction = 0;
 
-    if (q > flow.ratio(0, dH)*p)
+    const scalar HTrial = flow.ratio(0, dH);
+    if (q > HTrial*p)
     {
         flow.setDilatancy();
+
+        // d(residual)/d(dl), at the floor of the pressure or above
+        auto slopeAt = [&](const scalar dl, const bool floor, const scalar H)
+        {
+            const scalar dX = floor ? 0 : -step.a*dPlastic;
+            const scalar dG =
+                halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
+            return (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - H*k*dX;
+        };
 
         // Beyond this even the softest elastic strain is used up
         const scalar farthest =
             std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
 
         scalar lower = 0, upper = farthest;
-        scalar dl = 0;
+
+        // The first iterate, from the trial state
+        flow.contraction(0, dPlastic);
+        scalar dl =
+            (HTrial*p - q)/slopeAt(0, XTrial <= XRes, HTrial);
+        if (!(dl > lower && dl < upper)) dl = 0.5*upper;
+
+        // Modulus that gave the direction of the trial stress
+        scalar GTrial = G;
+        bool converged = false;
+
+        // Strength of the pressure and the direction found
+        auto refresh = [&]()
+        {
+            for (int c = 0; c < n; ++c)
+            {
+                sTrial[c] = step.s[c] + 2*G*step.de[c];
+            }
+            GTrial = G;
+            flow.refresh(p, sTrial, q);
+        };
 
         for (int i = 0; i < maxIterations; ++i)
         {
@@ -99,29 +133,39 @@ bool Foam::mpm::granularModel::contactStep
             if (mag(residual) <= tolerance*q || upper - lower <= 1e-15*farthest)
             {
                 // The strength at another pressure, and on from here
-                if (!flow.stale(p)) break;
-                flow.refresh(p);
+                // Angle by which another G turns the trial stress, squared
+                const scalar turn =
+                    Model::strengthOfDirection
+                  ? sqr((G - GTrial)/(q*q))*(c0*c2 - c1*c1)
+                  : 0;
+                if (!flow.stale(p) && turn < maxTurn*maxTurn)
+                {
+                    converged = true;
+                    break;
+                }
+                refresh();
                 lower = 0;
                 upper = farthest;
                 continue;
             }
             (residual > 0 ? lower : upper) = dl;
 
-            const scalar dX = floor ? 0 : -step.a*dPlastic;
-            const scalar dG =
-                halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
-            const scalar slope =
-                (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - H*k*dX;
-
-            dl -= residual/slope;
+            dl -= residual/slopeAt(dl, floor, H);
             if (!(dl > lower && dl < upper)) dl = 0.5*(lower + upper);
+        }
+        if (!converged)
+        {
+            // Pressure and strength chase each other, in strain increments
+            // that compress to tens of MPa: at least stay within the strength
+            refresh();
+            scale = min(flow.ratio(dl, dH)*p/q, scalar(1));
         }
         step.plasticStrain += dl;
     }
     else if (flow.stale(p))
     {
         // Elastic by a strength that belongs to another pressure
-        flow.refresh(p);
+        flow.refresh(p, sTrial, q);
         const scalar H = flow.ratio(0, dH);
         if (q > H*p) scale = H*p/q;
     }
