@@ -116,9 +116,9 @@ def testEachModel(tmp_path, figures):
     properties = path/"constant"/"materialPointProperties"
     for model in ["elastoplasticMuI", "muI", "DruckerPrager", "linearElastic",
                   "rigidSkeleton"]:
-        properties.write_text("clouds (soil);\n" + text.replace(
+        properties.write_text(text.replace(
             "constitutiveModel   elastoplasticMuI;",
-            f"constitutiveModel   {model};"))
+            f"constitutiveModel   {model};") + "clouds (soil);\n")
         done = run(path)
         figures.equal(f"{model}: exit status", done.returncode, 0)
         figures.holds(f"{model}: no complaint",

@@ -35,7 +35,7 @@ bool Foam::mpm::granularModel::contactStep
 
     // Error of the direction whose strength counts; the strength errs by less
     // than twice as much
-    constexpr scalar maxTurn = 1e-3;
+    constexpr scalar maxTurn = 2e-3;
 
     const auto& limits = step.limits;
 
