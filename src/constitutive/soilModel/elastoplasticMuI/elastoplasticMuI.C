@@ -50,56 +50,6 @@ Foam::mpm::elastoplasticMuI::elastoplasticMuI
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 template<int dim>
-void Foam::mpm::elastoplasticMuI::findStrengths
-(
-    const soilPoints& points,
-    const label first,
-    const label last,
-    const scalar deltaT,
-    strengthBlock& block
-) const
-{
-    const scalar* const open = points.state[CONTACT_VOID_RATIO];
-    // Separated points need none, unless they close in this step; counts, not
-    // flags, make vector loops
-    const scalar* const* L = points.velocityGradient;
-    int64_t needed = 0;
-    for (label i = first; i < last; ++i)
-    {
-        const scalar trace =
-            dim == 2 ? L[0][i] + L[3][i] : L[0][i] + L[4][i] + L[8][i];
-        needed += (open[i] <= 0) | (trace < 0);
-    }
-    if (!needed) return;
-
-    const scalar* const xx = points.stress[0] + first;
-    const scalar* const yy = points.stress[1] + first;
-    const scalar* const zz = points.stress[2] + first;
-    const scalar* const voidRatio = points.voidRatio + first;
-    const scalar* const Lxx = points.velocityGradient[0] + first;
-    const scalar* const Lyy = points.velocityGradient[dim == 2 ? 3 : 4] + first;
-    const scalar* const Lzz = points.velocityGradient[dim == 2 ? 0 : 8] + first;
-
-    for (label j = 0; j < last - first; ++j)
-    {
-        const scalar p = max(-(xx[j] + yy[j] + zz[j])/3, pRes_);
-        const scalar trace = Lxx[j] + Lyy[j] + (dim == 2 ? 0 : Lzz[j]);
-        // The volume to second order serves the strength
-        const scalar x = trace*deltaT;
-        const scalar e = max
-        (
-            (1 + voidRatio[j])*(1 + x*(1 + 0.5*x)) - 1, minVoidRatio
-        );
-        const scalar term = strength_.columnPressureTerm(p);
-        const scalar state = strength_.columnState(term, e);
-        block.pressureTerm[j] = term;
-        block.tanPeak[j] = strength_.columnTanPeak(state);
-        block.tanTransformation[j] = strength_.columnTanTransformation(state);
-    }
-}
-
-
-template<int dim>
 Foam::scalar Foam::mpm::elastoplasticMuI::startStrain
 (
     const scalar* s,
