@@ -355,29 +355,32 @@ bool Foam::mpm::granularModel::contactStep
 
     // Contact is lost where expansion leaves no pressure; what rounding makes
     // of a strain of constant volume is no expansion
-    if (contraction < 0 && sqr(contraction) > 1e-18*block.c2[j])
+    if
+    (
+        block.XTrial[j] - a*plasticContraction <= block.XRes[j]
+     && contraction < 0
+     && sqr(contraction) > 1e-18*block.c2[j]
+    )
     {
         const scalar lost = plasticContraction - contraction;
         const scalar stored = block.XStart[j] - block.XRes[j];
-        if (a*lost >= stored)
+
+        // Moduli in the middle of the part with contact, as on the way back:
+        // else cycles would pump
+        scalar part = lost > 0 ? stored/(a*lost) : 0;
+        for (int i = 0; i < 3; ++i)
         {
-            // Moduli in the middle of the part with contact, as on the way
-            // back: else cycles would pump
-            scalar part = lost > 0 ? stored/(a*lost) : 0;
-            for (int i = 0; i < 3; ++i)
-            {
-                part = min(part, scalar(1));
-                step.contactVoidRatio =
-                    (1 + block.e0[j])*expStrain(-part*contraction) - 1;
-                if (lost <= 0) break;
-                part = stored/lost
-                   /elasticity_.coefficient<L>
-                    (
-                        0.5*(block.e0[j] + step.contactVoidRatio)
-                    );
-            }
-            return false;
+            part = min(part, scalar(1));
+            step.contactVoidRatio =
+                (1 + block.e0[j])*expStrain(-part*contraction) - 1;
+            if (lost <= 0) break;
+            part = stored/lost
+               /elasticity_.coefficient<L>
+                (
+                    0.5*(block.e0[j] + step.contactVoidRatio)
+                );
         }
+        return false;
     }
 
     for (int c = 0; c < n; ++c)
@@ -402,11 +405,9 @@ void Foam::mpm::granularModel::advance
     constexpr int n = nComponents<dim>;
 
     scalar* const* stress = points.stress;
-    scalar* const* whole = points.wholeStress;
     scalar* const plasticStrain = points.state[PLASTIC_STRAIN];
     scalar* const contactVoidRatio = points.state[CONTACT_VOID_RATIO];
     scalar* const regimes = points.state[REGIME];
-    scalar* const inertialNumber = points.state[INERTIAL_NUMBER];
 
     scalar maxModulus = 0;
     scalar maxViscosity = 0;
@@ -437,15 +438,9 @@ void Foam::mpm::granularModel::advance
         }
         scalar e = block.e[j];
 
-        scalar D[n];
-        for (int c = 0; c < n; ++c) D[c] = block.D[c][j];
-        const scalar shearRateSqr = block.shearRateSqr[j];
-
-        // Stress without and with its viscous part
         scalar p = 0;
-        scalar sum[n] = {};
-        scalar I = 0;
-        label where = separated;
+        scalar where = separated;
+        bool flows = true;
 
         const scalar open = contactVoidRatio[i];
         bool carries = false;
@@ -496,8 +491,7 @@ void Foam::mpm::granularModel::advance
                 p = step.p;
                 for (int c = 0; c < n; ++c)
                 {
-                    sum[c] = block.s[c][j] - (c < 3 ? p : 0);
-                    stress[c][i] = sum[c];
+                    stress[c][i] = block.s[c][j] - (c < 3 ? p : 0);
                 }
                 plasticStrain[i] = step.plasticStrain;
                 contactVoidRatio[i] = 0;
@@ -521,60 +515,134 @@ void Foam::mpm::granularModel::advance
             {
                 contactVoidRatio[i] = settledContact_;
                 where = suspended;
+                flows = false;
             }
         }
         points.voidRatio[i] = e;
-
-        // Viscous part
-        if (where == suspended)
-        {
-            if (points.liquidViscosity > 0)
-            {
-                const scalar mu = points.liquidViscosity*viscosityFactor(e);
-                for (int c = 0; c < n; ++c) sum[c] = 2*mu*D[c];
-                maxViscosity = max(maxViscosity, mu*(1 + e));
-            }
-        }
-        else if (shearRateSqr > 0)
-        {
-            if constexpr (Model::hasViscousPart)
-            {
-                maxViscosity = max
-                (
-                    maxViscosity,
-                    model.template viscousStress<dim>
-                    (
-                        D, shearRateSqr, e, p, sum, I
-                    )*(1 + e)
-                );
-            }
-            else if (p > 0)
-            {
-                I = 2*d_*std::sqrt(shearRateSqr*rhoS_/p);
-            }
-        }
-        if
-        (
-            where == staticBed
-         && (I > bedLoadI_ || (points.speed && points.speed[i] > bedLoadSpeed_))
-        )
-        {
-            where = bedLoad;
-        }
         regimes[i] = where;
-        inertialNumber[i] = I;
+        block.e[j] = e;
+        block.p[j] = p;
+        block.flows[j] = flows;
 
-        for (int c = 0; c < n; ++c) whole[c][i] = sum[c];
-        if (points.power)
+        if (j == granularBlockSize - 1 || i == points.n - 1)
         {
-            // tr(sum D), D = deviator + trace/3
-            points.power[i] = doubleDot<dim>(sum, D)
-              + block.trace[j]/3*(sum[0] + sum[1] + sum[2]);
+            addViscous<Model, dim>(model, points, i - j, j + 1, block);
+            for (label m = 0; m <= j; ++m)
+            {
+                maxViscosity = max(maxViscosity, block.viscosity[m]);
+            }
         }
     }
 
     points.maxWaveSpeedSqr = elasticity_.waveSpeedSqr(maxModulus, 0);
     points.maxViscosity = maxViscosity/rhoS_;
+}
+
+
+template<class Model, int dim>
+void Foam::mpm::granularModel::addViscous
+(
+    const Model& model,
+    soilPoints& points,
+    const label first,
+    const label nPoints,
+    granularBlock<dim>& block
+) const
+{
+    constexpr int n = nComponents<dim>;
+
+    scalar* const regimes = points.state[REGIME] + first;
+    scalar* const inertialNumber = points.state[INERTIAL_NUMBER] + first;
+
+    // Of the flowing, with or without skeleton stress
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        scalar I = 0, viscosity = 0, pressure = 0;
+        if constexpr (Model::hasViscousPart)
+        {
+            model.findViscosity
+            (
+                block.shearRateSqr[j], block.e[j], block.p[j],
+                viscosity, pressure, I
+            );
+        }
+        else
+        {
+            const scalar p = block.p[j];
+            I = 2*d_*std::sqrt(block.shearRateSqr[j]*rhoS_/max(p, VSMALL));
+            I = p > 0 ? I : 0;
+        }
+        const scalar flows = block.flows[j];
+        inertialNumber[j] = flows*I;
+        block.viscosity[j] = flows*viscosity;
+        block.viscousPressure[j] = flows*pressure;
+    }
+
+    // Suspended grains in liquid. Twice the viscosity stands for that of D
+    if (points.liquidViscosity > 0)
+    {
+        for (label j = 0; j < nPoints; ++j)
+        {
+            if (block.flows[j] == 0)
+            {
+                block.viscosity[j] =
+                    2*points.liquidViscosity*viscosityFactor(block.e[j]);
+            }
+        }
+    }
+
+    // Fast points in contact are bed load
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const bool fast =
+            inertialNumber[j] > bedLoadI_
+         || (points.speed && points.speed[first + j] > bedLoadSpeed_);
+        regimes[j] = (regimes[j] == staticBed && fast) ? bedLoad : regimes[j];
+    }
+
+    const scalar* stress[n];
+    scalar* whole[n];
+    for (int c = 0; c < n; ++c)
+    {
+        stress[c] = points.stress[c] + first;
+        whole[c] = points.wholeStress[c] + first;
+    }
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const scalar viscosity = block.viscosity[j];
+        const scalar pressure = block.viscousPressure[j];
+        for (int c = 0; c < n; ++c)
+        {
+            whole[c][j] =
+                stress[c][j] + viscosity*block.D[c][j]
+              - (c < 3 ? pressure : 0);
+        }
+        // Per mass of grains, for the limit of the time step
+        block.viscosity[j] = viscosity*(1 + block.e[j]);
+    }
+    if (points.power)
+    {
+        scalar* const power = points.power + first;
+        #pragma GCC ivdep
+        for (label j = 0; j < nPoints; ++j)
+        {
+            // tr(sigma D), D = deviator + trace/3
+            scalar sum =
+                whole[0][j]*block.D[0][j] + whole[1][j]*block.D[1][j]
+              + whole[2][j]*block.D[2][j] + 2*whole[3][j]*block.D[3][j]
+              + block.trace[j]/3*(whole[0][j] + whole[1][j] + whole[2][j]);
+            if constexpr (dim == 3)
+            {
+                sum +=
+                    2*(
+                        whole[4][j]*block.D[4][j] + whole[5][j]*block.D[5][j]
+                    );
+            }
+            power[j] = sum;
+        }
+    }
 }
 
 
