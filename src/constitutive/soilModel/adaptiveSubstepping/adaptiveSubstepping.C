@@ -47,7 +47,7 @@ Foam::scalar Foam::mpm::adaptiveSubstepping::yieldAt
 template<int dim, Foam::mpm::granularElasticity::law L>
 bool Foam::mpm::adaptiveSubstepping::rates
 (
-    const granularStep<dim>& step,
+    const increment<dim>& step,
     const evolving<dim>& y,
     const bool plastic,
     evolving<dim>& rate
@@ -154,16 +154,24 @@ Foam::mpm::adaptiveSubstepping::adaptiveSubstepping
 template<int dim, Foam::mpm::granularElasticity::law L>
 bool Foam::mpm::adaptiveSubstepping::integrate
 (
-    granularStep<dim>& step
+    const label j,
+    granularBlock<dim>& block,
+    granularStep& result
 ) const
 {
     constexpr int n = nComponents<dim>;
 
+    increment<dim> step;
     evolving<dim> y;
-    for (int c = 0; c < n; ++c) y.v[c] = step.s[c];
-    y.p() = max(step.p, pRes_);
-    y.plasticStrain() = step.plasticStrain;
-    y.e() = step.e0;
+    for (int c = 0; c < n; ++c)
+    {
+        step.de[c] = block.D[c][j]*block.time[j];
+        y.v[c] = block.s[c][j];
+    }
+    step.contraction = -block.trace[j]*block.time[j];
+    y.p() = block.p[j];
+    y.plasticStrain() = result.plasticStrain;
+    y.e() = block.e0[j];
 
     const scalar deq = std::sqrt(doubleDot<dim>(step.de, step.de)*2/3);
 
@@ -205,7 +213,7 @@ bool Foam::mpm::adaptiveSubstepping::integrate
             {
                 if (step.contraction < 0)
                 {
-                    step.contactVoidRatio = y.e();
+                    result.contactVoidRatio = y.e();
                     return false;
                 }
                 const scalar dt = min(1 - t, deq > 0 ? 1e-6/deq : 1);
@@ -293,10 +301,13 @@ bool Foam::mpm::adaptiveSubstepping::integrate
         h *= min(max(factor, scalar(0.2)), scalar(4));
     }
 
-    for (int c = 0; c < n; ++c) step.s[c] = y.v[c];
-    step.p = y.p();
-    step.plasticStrain = y.plasticStrain();
-    step.k = elasticity_.stiffness<L>(y.p(), step.limits);
+    for (int c = 0; c < n; ++c) block.s[c][j] = y.v[c];
+    result.p = y.p();
+    result.plasticStrain = y.plasticStrain();
+    result.k = elasticity_.stiffness<L>
+    (
+        y.p(), elasticity_.rangeAt<L>(y.e())
+    );
     return true;
 }
 

@@ -17,140 +17,376 @@ inline Foam::scalar Foam::mpm::granularModel::viscosityFactor
 }
 
 
+template<int dim>
+void Foam::mpm::granularModel::loadBlock
+(
+    const soilPoints& points,
+    const label first,
+    const label nPoints,
+    const scalar deltaT,
+    granularBlock<dim>& block
+) const
+{
+    const scalar* const* L = points.velocityGradient;
+    const scalar* const voidRatio = points.voidRatio + first;
+
+    // Columns of the deviator, and the trace
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const label i = first + j;
+        scalar xx, yy, zz, shear;
+        if constexpr (dim == 2)
+        {
+            xx = L[0][i];
+            yy = L[3][i];
+            zz = 0;
+            const scalar xy = 0.5*(L[1][i] + L[2][i]);
+            block.D[3][j] = xy;
+            block.spin[0][j] = 0.5*(L[1][i] - L[2][i]);
+            shear = xy*xy;
+        }
+        else
+        {
+            xx = L[0][i];
+            yy = L[4][i];
+            zz = L[8][i];
+            const scalar xy = 0.5*(L[1][i] + L[3][i]);
+            const scalar yz = 0.5*(L[5][i] + L[7][i]);
+            const scalar zx = 0.5*(L[6][i] + L[2][i]);
+            block.D[3][j] = xy;
+            block.D[4][j] = yz;
+            block.D[5][j] = zx;
+            block.spin[0][j] = 0.5*(L[1][i] - L[3][i]);
+            block.spin[1][j] = 0.5*(L[5][i] - L[7][i]);
+            block.spin[2][j] = 0.5*(L[6][i] - L[2][i]);
+            shear = xy*xy + yz*yz + zx*zx;
+        }
+        const scalar trace = xx + yy + zz;
+        xx -= trace/3;
+        yy -= trace/3;
+        zz -= trace/3;
+        block.D[0][j] = xx;
+        block.D[1][j] = yy;
+        block.D[2][j] = zz;
+        block.trace[j] = trace;
+        block.shearRateSqr[j] = 0.5*(xx*xx + yy*yy + zz*zz) + shear;
+
+        // In this form constant volume keeps e to the last digit
+        const scalar e0 = voidRatio[j];
+        block.e0[j] = e0;
+        block.e[j] = e0 + (1 + e0)*smallExpM1(trace*deltaT);
+    }
+
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const scalar x = block.trace[j]*deltaT;
+        if (!(mag(x) < maxSmallStrain))
+        {
+            block.e[j] = block.e0[j] + (1 + block.e0[j])*(std::exp(x) - 1);
+        }
+    }
+}
+
+
+template<int dim>
+inline void Foam::mpm::granularModel::loadStress
+(
+    const soilPoints& points,
+    const label i,
+    const label j,
+    const scalar deltaT,
+    granularBlock<dim>& block
+) const
+{
+    constexpr int n = nComponents<dim>;
+    scalar s[n];
+    scalar spin[dim == 2 ? 1 : 3];
+    for (int c = 0; c < n; ++c) s[c] = points.stress[c][i];
+    for (int c = 0; c < (dim == 2 ? 1 : 3); ++c) spin[c] = block.spin[c][j];
+    rotate<dim>(s, spin, deltaT);
+    const scalar mean = (s[0] + s[1] + s[2])/3;
+    for (int c = 0; c < n; ++c) block.s[c][j] = s[c] - (c < 3 ? mean : 0);
+    block.p[j] = max(-mean, pRes_);
+}
+
+
+template<int dim, Foam::mpm::granularElasticity::law L, bool capped>
+inline void Foam::mpm::granularModel::trial
+(
+    const label j,
+    const scalar time,
+    granularBlock<dim>& block
+) const
+{
+    constexpr int n = nComponents<dim>;
+
+    const scalar middle = 0.5*(block.e0[j] + block.e[j]);
+    const granularElasticity::range limits =
+        capped ? elasticity_.rangeAt<L>(middle) : elasticity_.uncapped();
+
+    const scalar a = elasticity_.coefficient<L>(middle);
+    const scalar p = block.p[j];
+    const scalar kStart = elasticity_.stiffness<L>(p, limits);
+    const scalar XStart = elasticity_.measure<L>(p, limits);
+    const scalar XRes = elasticity_.measure<L>(pRes_, limits);
+    const scalar XTrial = XStart - a*block.trace[j]*time;
+
+    scalar k;
+    const scalar pTrial =
+        elasticity_.pressure<L>(max(XTrial, XRes), limits, k);
+    const scalar halfModulus = 0.5*elasticity_.shearRatio()*a;
+    const scalar G = halfModulus*(kStart + k);
+
+    scalar s[n], D[n], t[n];
+    for (int c = 0; c < n; ++c)
+    {
+        s[c] = block.s[c][j];
+        D[c] = block.D[c][j];
+        t[c] = s[c] + 2*G*time*D[c];
+    }
+
+    // q of the trial stress for any G: q^2 = c0 + 2 c1 G + c2 G^2
+    block.c0[j] = 1.5*doubleDot<dim>(s, s);
+    block.c1[j] = 3*time*doubleDot<dim>(s, D);
+    block.c2[j] = 12*time*time*block.shearRateSqr[j];
+    const scalar q = std::sqrt(1.5*doubleDot<dim>(t, t));
+
+    block.time[j] = time;
+    block.a[j] = a;
+    block.kStart[j] = kStart;
+    block.XStart[j] = XStart;
+    block.XRes[j] = XRes;
+    block.XTrial[j] = XTrial;
+    block.pTrial[j] = pTrial;
+    block.kTrial[j] = k;
+    block.G[j] = G;
+    block.q[j] = q;
+    block.determinantRatio[j] =
+        determinant<dim>(t)/max(q*q*q, VSMALL);
+}
+
+
+template<class Model, int dim, Foam::mpm::granularElasticity::law L>
+void Foam::mpm::granularModel::trialBlock
+(
+    const Model& model,
+    const soilPoints& points,
+    const label first,
+    const label nPoints,
+    const scalar deltaT,
+    granularBlock<dim>& block,
+    typename Model::strengthBlock& strengths
+) const
+{
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        loadStress<dim>(points, first + j, j, deltaT, block);
+    }
+    if (elasticity_.capped())
+    {
+        for (label j = 0; j < nPoints; ++j)
+        {
+            trial<dim, L, true>(j, deltaT, block);
+        }
+    }
+    else
+    {
+        #pragma GCC ivdep
+        for (label j = 0; j < nPoints; ++j)
+        {
+            trial<dim, L, false>(j, deltaT, block);
+        }
+    }
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        model.findStrength(j, block, strengths);
+    }
+}
+
+
 template<class Model, int dim, Foam::mpm::granularElasticity::law L>
 bool Foam::mpm::granularModel::contactStep
 (
     const Model& model,
-    granularStep<dim>& step
+    const typename Model::strengthBlock& strengths,
+    const label j,
+    granularBlock<dim>& block,
+    granularStep& step
 ) const
 {
     constexpr int n = nComponents<dim>;
-    constexpr scalar tolerance = 1e-9;
+
+    // Of q; the plastic strain is wrong by as much of the elastic strain. The
+    // stress lies on the yield surface in any case
+    constexpr scalar tolerance = 1e-6;
     constexpr int maxIterations = 100;
 
-    const auto& limits = step.limits;
+    // Error of the direction whose strength counts; the strength errs by less
+    // than twice as much
+    constexpr scalar maxTurn = 2e-3;
 
-    const scalar pStart = step.p;
-    const scalar kStart = elasticity_.stiffness<L>(pStart, limits);
-    const scalar XStart = elasticity_.measure<L>(pStart, limits);
-    const scalar XRes = elasticity_.measure<L>(pRes_, limits);
-    const scalar XTrial = XStart + step.a*step.contraction;
-
-    // p(plastic contraction), k and whether the floor is reached
-    auto pressureAt = [&](const scalar plastic, scalar& k)
-    {
-        const scalar X = XTrial - step.a*plastic;
-        return elasticity_.pressure<L>(max(X, XRes), limits, k);
-    };
-
-    // q of the trial stress for any G: q^2 = c0 + 2 c1 G + c2 G^2
-    const scalar c0 = 1.5*doubleDot<dim>(step.s, step.s);
-    const scalar c1 = 3*doubleDot<dim>(step.s, step.de);
-    const scalar c2 = 6*doubleDot<dim>(step.de, step.de);
-
-    const scalar halfModulus = 0.5*elasticity_.shearRatio()*step.a;
-
-    scalar k;
-    scalar p = pressureAt(0, k);
-    scalar G = halfModulus*(kStart + k);
-    scalar q = std::sqrt(max(c0 + G*(2*c1 + G*c2), scalar(0)));
-
-    scalar sTrial[n];
-    for (int c = 0; c < n; ++c) sTrial[c] = step.s[c] + 2*G*step.de[c];
+    scalar p = block.pTrial[j];
+    scalar k = block.kTrial[j];
+    scalar G = block.G[j];
+    scalar q = block.q[j];
+    const scalar a = block.a[j];
+    const scalar contraction = -block.trace[j]*block.time[j];
 
     typename Model::template flowRule<dim> flow
     (
-        model, step, sTrial, q, pStart, p
+        model, strengths, j, block, step.plasticStrain
     );
 
     scalar dH, dPlastic;
     scalar scale = 1;
-    step.plasticContraction = 0;
+    scalar plasticContraction = 0;
 
-    if (q > flow.ratio(0, dH)*p)
+    const scalar HTrial = flow.ratio(0, dH);
+    if (q > HTrial*p)
     {
+        const scalar kStart = block.kStart[j];
+        const scalar XRes = block.XRes[j];
+        const scalar XTrial = block.XTrial[j];
+        const scalar c0 = block.c0[j], c1 = block.c1[j], c2 = block.c2[j];
+        const scalar halfModulus = 0.5*elasticity_.shearRatio()*a;
+        const granularElasticity::range limits =
+            elasticity_.rangeAt<L>(0.5*(block.e0[j] + block.e[j]));
+
         flow.setDilatancy();
+
+        // d(residual)/d(dl), at the floor of the pressure or above
+        auto slopeAt = [&](const scalar dl, const bool floor, const scalar H)
+        {
+            const scalar dX = floor ? 0 : -a*dPlastic;
+            const scalar dG =
+                halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
+            return (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - H*k*dX;
+        };
 
         // Beyond this even the softest elastic strain is used up
         const scalar farthest =
             std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
 
         scalar lower = 0, upper = farthest;
-        scalar dl = 0;
+
+        // The first iterate, from the trial state
+        flow.contraction(0, dPlastic);
+        scalar dl =
+            (HTrial*p - q)/slopeAt(0, XTrial <= XRes, HTrial);
+        if (!(dl > lower && dl < upper)) dl = 0.5*upper;
+
+        // Modulus that gave the direction of the trial stress
+        scalar GTrial = G;
+        bool converged = false;
+
+        // Strength of the pressure and the direction found
+        auto refresh = [&]()
+        {
+            scalar t[n];
+            for (int c = 0; c < n; ++c)
+            {
+                t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
+            }
+            GTrial = G;
+            flow.refresh(p, t, q);
+        };
 
         for (int i = 0; i < maxIterations; ++i)
         {
-            const scalar plastic = flow.contraction(dl, dPlastic);
-            const bool floor = XTrial - step.a*plastic <= XRes;
-            p = pressureAt(plastic, k);
+            plasticContraction = flow.contraction(dl, dPlastic);
+            const scalar X = XTrial - a*plasticContraction;
+            const bool floor = X <= XRes;
+            p = elasticity_.pressure<L>(max(X, XRes), limits, k);
             G = halfModulus*(kStart + k);
             q = std::sqrt(max(c0 + G*(2*c1 + G*c2), VSMALL));
 
             const scalar H = flow.ratio(dl, dH);
             const scalar residual = q - 3*G*dl - H*p;
             scale = min(H*p/q, scalar(1));
-            step.plasticContraction = plastic;
 
             if (mag(residual) <= tolerance*q || upper - lower <= 1e-15*farthest)
             {
-                // The strength at another pressure, and on from here
-                if (!flow.stale(p)) break;
-                flow.refresh(p);
+                // The strength at another pressure or direction, and on from
+                // here; turn is the square of the angle between the trial
+                // stresses
+                const scalar turn =
+                    Model::strengthOfDirection
+                  ? sqr((G - GTrial)/(q*q))*(c0*c2 - c1*c1)
+                  : 0;
+                if (!flow.stale(p) && turn < maxTurn*maxTurn)
+                {
+                    converged = true;
+                    break;
+                }
+                refresh();
                 lower = 0;
                 upper = farthest;
                 continue;
             }
             (residual > 0 ? lower : upper) = dl;
 
-            const scalar dX = floor ? 0 : -step.a*dPlastic;
-            const scalar dG =
-                halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
-            const scalar slope =
-                (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - H*k*dX;
-
-            dl -= residual/slope;
+            dl -= residual/slopeAt(dl, floor, H);
             if (!(dl > lower && dl < upper)) dl = 0.5*(lower + upper);
+        }
+        if (!converged)
+        {
+            // Pressure and strength chase each other, in strain increments
+            // that compress to tens of MPa: at least stay within the strength
+            refresh();
+            scale = min(flow.ratio(dl, dH)*p/q, scalar(1));
         }
         step.plasticStrain += dl;
     }
     else if (flow.stale(p))
     {
         // Elastic by a strength that belongs to another pressure
-        flow.refresh(p);
+        scalar t[n];
+        for (int c = 0; c < n; ++c)
+        {
+            t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
+        }
+        flow.refresh(p, t, q);
         const scalar H = flow.ratio(0, dH);
         if (q > H*p) scale = H*p/q;
     }
 
     // Contact is lost where expansion leaves no pressure; what rounding makes
     // of a strain of constant volume is no expansion
-    if (step.contraction < -1e-9*std::sqrt(c2))
+    if
+    (
+        block.XTrial[j] - a*plasticContraction <= block.XRes[j]
+     && contraction < 0
+     && sqr(contraction) > 1e-18*block.c2[j]
+    )
     {
-        const scalar lost = step.plasticContraction - step.contraction;
-        const scalar stored = (XStart - XRes)/step.a;
-        if (lost >= stored)
+        const scalar lost = plasticContraction - contraction;
+        const scalar stored = block.XStart[j] - block.XRes[j];
+
+        // Moduli in the middle of the part with contact, as on the way back:
+        // else cycles would pump
+        scalar part = lost > 0 ? stored/(a*lost) : 0;
+        for (int i = 0; i < 3; ++i)
         {
-            // Moduli in the middle of the part with contact, as on the way
-            // back: else cycles would pump
-            scalar part = lost > 0 ? stored/lost : 0;
-            for (int i = 0; i < 3; ++i)
-            {
-                part = min(part, scalar(1));
-                step.contactVoidRatio =
-                    (1 + step.e0)*expStrain(-part*step.contraction) - 1;
-                if (lost <= 0) break;
-                part = (XStart - XRes)/lost
-                   /elasticity_.coefficient<L>
-                    (
-                        0.5*(step.e0 + step.contactVoidRatio)
-                    );
-            }
-            return false;
+            part = min(part, scalar(1));
+            step.contactVoidRatio =
+                (1 + block.e0[j])*expStrain(-part*contraction) - 1;
+            if (lost <= 0) break;
+            part = stored/lost
+               /elasticity_.coefficient<L>
+                (
+                    0.5*(block.e0[j] + step.contactVoidRatio)
+                );
         }
+        return false;
     }
 
     for (int c = 0; c < n; ++c)
     {
-        step.s[c] = scale*(step.s[c] + 2*G*step.de[c]);
+        block.s[c][j] =
+            scale*(block.s[c][j] + 2*G*block.time[j]*block.D[c][j]);
     }
     step.p = p;
     step.k = k;
@@ -169,34 +405,42 @@ void Foam::mpm::granularModel::advance
     constexpr int n = nComponents<dim>;
 
     scalar* const* stress = points.stress;
-    scalar* const* whole = points.wholeStress;
     scalar* const plasticStrain = points.state[PLASTIC_STRAIN];
     scalar* const contactVoidRatio = points.state[CONTACT_VOID_RATIO];
     scalar* const regimes = points.state[REGIME];
-    scalar* const inertialNumber = points.state[INERTIAL_NUMBER];
 
     scalar maxModulus = 0;
     scalar maxViscosity = 0;
 
+    granularBlock<dim> block;
+    typename Model::strengthBlock strengths;
+
     for (label i = 0; i < points.n; ++i)
     {
-        const soilRates<dim> rates(points, i);
-        const scalar trace = rates.trace();
-        const scalar e0 = points.voidRatio[i];
-        scalar e = (1 + e0)*expStrain(trace*deltaT) - 1;
-
-        scalar de[n];
-        for (int c = 0; c < n; ++c)
+        const label j = i % granularBlockSize;
+        if (j == 0)
         {
-            de[c] = rates.D[c] - (c < 3 ? trace/3 : 0);
-        }
-        const scalar shearRateSqr = 0.5*doubleDot<dim>(de, de);
+            const label nPoints = min(points.n - i, granularBlockSize);
+            loadBlock<dim>(points, i, nPoints, deltaT, block);
 
-        // Stress without and with its viscous part
+            label nContacts = 0;
+            for (label m = i; m < i + nPoints; ++m)
+            {
+                nContacts += contactVoidRatio[m] <= 0;
+            }
+            if (nContacts)
+            {
+                trialBlock<Model, dim, L>
+                (
+                    model, points, i, nPoints, deltaT, block, strengths
+                );
+            }
+        }
+        scalar e = block.e[j];
+
         scalar p = 0;
-        scalar sum[n] = {};
-        scalar I = 0;
-        label where = separated;
+        scalar where = separated;
+        bool flows = true;
 
         const scalar open = contactVoidRatio[i];
         bool carries = false;
@@ -212,66 +456,52 @@ void Foam::mpm::granularModel::advance
         }
         else if (e <= suspendedVoidRatio_)
         {
-            granularStep<dim> step;
-            scalar part = 1;
+            granularStep step;
+            step.plasticStrain = plasticStrain[i];
             if (open > 0)
             {
                 // Closes in this step; strain counts from there
-                part = min
+                const scalar part = min
                 (
                     scalar(1),
                     std::log((1 + open)/(1 + e))
-                   /max(-trace*deltaT, VSMALL)
+                   /max(-block.trace[j]*deltaT, VSMALL)
                 );
-                for (int c = 0; c < n; ++c) step.s[c] = 0;
-                step.p = pRes_;
+                for (int c = 0; c < n; ++c) block.s[c][j] = 0;
+                block.p[j] = pRes_;
+                block.e0[j] = open;
                 step.plasticStrain = 0;
-                step.e0 = open;
+                trial<dim, L, true>(j, part*deltaT, block);
+                model.findStrength(j, block, strengths);
             }
-            else
-            {
-                for (int c = 0; c < n; ++c) step.s[c] = stress[c][i];
-                rotate<dim>(step.s, rates.spin, deltaT);
-                const scalar mean = (step.s[0] + step.s[1] + step.s[2])/3;
-                for (int c = 0; c < 3; ++c) step.s[c] -= mean;
-                step.p = -mean;
-                step.plasticStrain = plasticStrain[i];
-                step.e0 = e0;
-            }
-            const scalar time = part*deltaT;
-            for (int c = 0; c < n; ++c) step.de[c] = de[c]*time;
-            step.contraction = -trace*time;
-            step.deltaT = time;
-            step.e = e;
-            const scalar middle = 0.5*(step.e0 + e);
-            step.a = elasticity_.coefficient<L>(middle);
-            step.limits = elasticity_.rangeAt<L>(middle);
 
             if constexpr (Model::ownIntegrator)
             {
-                carries = model.template integrate<dim, L>(step);
+                carries = model.template integrate<dim, L>(j, block, step);
             }
             else
             {
-                carries = contactStep<Model, dim, L>(model, step);
+                carries = contactStep<Model, dim, L>
+                (
+                    model, strengths, j, block, step
+                );
             }
             if (carries)
             {
                 p = step.p;
                 for (int c = 0; c < n; ++c)
                 {
-                    sum[c] = step.s[c] - (c < 3 ? p : 0);
-                    stress[c][i] = sum[c];
+                    stress[c][i] = block.s[c][j] - (c < 3 ? p : 0);
                 }
                 plasticStrain[i] = step.plasticStrain;
                 contactVoidRatio[i] = 0;
-                maxModulus = max(maxModulus, step.a*step.k*(1 + e));
+                maxModulus = max(maxModulus, block.a[j]*step.k*(1 + e));
                 where = staticBed;
             }
             else
             {
                 contactVoidRatio[i] =
-                    step.e0 < loosestContact_
+                    block.e0[j] < loosestContact_
                   ? min(step.contactVoidRatio, loosestContact_)
                   : step.contactVoidRatio;
             }
@@ -285,55 +515,134 @@ void Foam::mpm::granularModel::advance
             {
                 contactVoidRatio[i] = settledContact_;
                 where = suspended;
+                flows = false;
             }
         }
         points.voidRatio[i] = e;
-
-        // Viscous part
-        if (where == suspended)
-        {
-            if (points.liquidViscosity > 0)
-            {
-                const scalar mu = points.liquidViscosity*viscosityFactor(e);
-                for (int c = 0; c < n; ++c) sum[c] = 2*mu*de[c];
-                maxViscosity = max(maxViscosity, mu*(1 + e));
-            }
-        }
-        else if (shearRateSqr > 0)
-        {
-            if constexpr (Model::hasViscousPart)
-            {
-                maxViscosity = max
-                (
-                    maxViscosity,
-                    model.template viscousStress<dim>
-                    (
-                        de, shearRateSqr, e, p, sum, I
-                    )*(1 + e)
-                );
-            }
-            else if (p > 0)
-            {
-                I = 2*d_*std::sqrt(shearRateSqr*rhoS_/p);
-            }
-        }
-        if
-        (
-            where == staticBed
-         && (I > bedLoadI_ || (points.speed && points.speed[i] > bedLoadSpeed_))
-        )
-        {
-            where = bedLoad;
-        }
         regimes[i] = where;
-        inertialNumber[i] = I;
+        block.e[j] = e;
+        block.p[j] = p;
+        block.flows[j] = flows;
 
-        for (int c = 0; c < n; ++c) whole[c][i] = sum[c];
-        if (points.power) points.power[i] = doubleDot<dim>(sum, rates.D);
+        if (j == granularBlockSize - 1 || i == points.n - 1)
+        {
+            addViscous<Model, dim>(model, points, i - j, j + 1, block);
+            for (label m = 0; m <= j; ++m)
+            {
+                maxViscosity = max(maxViscosity, block.viscosity[m]);
+            }
+        }
     }
 
     points.maxWaveSpeedSqr = elasticity_.waveSpeedSqr(maxModulus, 0);
     points.maxViscosity = maxViscosity/rhoS_;
+}
+
+
+template<class Model, int dim>
+void Foam::mpm::granularModel::addViscous
+(
+    const Model& model,
+    soilPoints& points,
+    const label first,
+    const label nPoints,
+    granularBlock<dim>& block
+) const
+{
+    constexpr int n = nComponents<dim>;
+
+    scalar* const regimes = points.state[REGIME] + first;
+    scalar* const inertialNumber = points.state[INERTIAL_NUMBER] + first;
+
+    // Of the flowing, with or without skeleton stress
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        scalar I = 0, viscosity = 0, pressure = 0;
+        if constexpr (Model::hasViscousPart)
+        {
+            model.findViscosity
+            (
+                block.shearRateSqr[j], block.e[j], block.p[j],
+                viscosity, pressure, I
+            );
+        }
+        else
+        {
+            const scalar p = block.p[j];
+            I = 2*d_*std::sqrt(block.shearRateSqr[j]*rhoS_/max(p, VSMALL));
+            I = p > 0 ? I : 0;
+        }
+        const scalar flows = block.flows[j];
+        inertialNumber[j] = flows*I;
+        block.viscosity[j] = flows*viscosity;
+        block.viscousPressure[j] = flows*pressure;
+    }
+
+    // Suspended grains in liquid. Twice the viscosity stands for that of D
+    if (points.liquidViscosity > 0)
+    {
+        for (label j = 0; j < nPoints; ++j)
+        {
+            if (block.flows[j] == 0)
+            {
+                block.viscosity[j] =
+                    2*points.liquidViscosity*viscosityFactor(block.e[j]);
+            }
+        }
+    }
+
+    // Fast points in contact are bed load
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const bool fast =
+            inertialNumber[j] > bedLoadI_
+         || (points.speed && points.speed[first + j] > bedLoadSpeed_);
+        regimes[j] = (regimes[j] == staticBed && fast) ? bedLoad : regimes[j];
+    }
+
+    const scalar* stress[n];
+    scalar* whole[n];
+    for (int c = 0; c < n; ++c)
+    {
+        stress[c] = points.stress[c] + first;
+        whole[c] = points.wholeStress[c] + first;
+    }
+    #pragma GCC ivdep
+    for (label j = 0; j < nPoints; ++j)
+    {
+        const scalar viscosity = block.viscosity[j];
+        const scalar pressure = block.viscousPressure[j];
+        for (int c = 0; c < n; ++c)
+        {
+            whole[c][j] =
+                stress[c][j] + viscosity*block.D[c][j]
+              - (c < 3 ? pressure : 0);
+        }
+        // Per mass of grains, for the limit of the time step
+        block.viscosity[j] = viscosity*(1 + block.e[j]);
+    }
+    if (points.power)
+    {
+        scalar* const power = points.power + first;
+        #pragma GCC ivdep
+        for (label j = 0; j < nPoints; ++j)
+        {
+            // tr(sigma D), D = deviator + trace/3
+            scalar sum =
+                whole[0][j]*block.D[0][j] + whole[1][j]*block.D[1][j]
+              + whole[2][j]*block.D[2][j] + 2*whole[3][j]*block.D[3][j]
+              + block.trace[j]/3*(whole[0][j] + whole[1][j] + whole[2][j]);
+            if constexpr (dim == 3)
+            {
+                sum +=
+                    2*(
+                        whole[4][j]*block.D[4][j] + whole[5][j]*block.D[5][j]
+                    );
+            }
+            power[j] = sum;
+        }
+    }
 }
 
 
