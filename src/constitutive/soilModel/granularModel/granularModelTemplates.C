@@ -307,24 +307,29 @@ bool Foam::mpm::granularModel::contactStep
             const scalar residual = q - 3*G*dl - H*p;
             scale = min(H*p/q, scalar(1));
 
-            if (mag(residual) <= tolerance*q || upper - lower <= 1e-15*farthest)
+            const bool found =
+                mag(residual) <= tolerance*q
+             || upper - lower <= 1e-15*farthest;
+
+            if (found || i == 0)
             {
                 // The strength at another pressure or direction, and on from
-                // here; turn is the square of the angle between the trial
+                // here; asked after the first iterate, too, not to converge
+                // twice. turn is the square of the angle between the trial
                 // stresses
                 const scalar turn =
                     Model::strengthOfDirection
                   ? sqr((G - GTrial)/(q*q))*(c0*c2 - c1*c1)
                   : 0;
-                if (!flow.stale(p) && turn < maxTurn*maxTurn)
+                if (flow.stale(p) || turn >= maxTurn*maxTurn)
                 {
-                    converged = true;
-                    break;
+                    refresh();
+                    lower = 0;
+                    upper = farthest;
+                    continue;
                 }
-                refresh();
-                lower = 0;
-                upper = farthest;
-                continue;
+                converged = found;
+                if (found) break;
             }
             (residual > 0 ? lower : upper) = dl;
 
@@ -598,7 +603,7 @@ void Foam::mpm::granularModel::addViscous
         const bool fast =
             inertialNumber[j] > bedLoadI_
          || (points.speed && points.speed[first + j] > bedLoadSpeed_);
-        regimes[j] = (regimes[j] == staticBed && fast) ? bedLoad : regimes[j];
+        if (fast && regimes[j] == staticBed) regimes[j] = bedLoad;
     }
 
     const scalar* stress[n];
