@@ -301,10 +301,11 @@ Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT(word& limiter)
 
     forAll(clouds_, i)
     {
-        const materialPointCloud& cloud = clouds_[i];
+        materialPointCloud& cloud = clouds_[i];
         scalar wave = cloud.maxWaveSpeed();
         scalar speed = cloud.maxSpeed();
         reduce(wave, maxOp<scalar>());
+        cloud.setGlobalWaveSpeed(wave);
         reduce(speed, maxOp<scalar>());
 
         signalSpeed_[i] = wave + speed;

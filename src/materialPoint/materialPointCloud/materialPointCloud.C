@@ -238,6 +238,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     boundary_(grid, U_, corners),
     order_(grid),
     coupling_(nullptr),
+    globalWaveSpeed_(0),
     stepCount_(0),
     expectedPoints_(-1)
 {

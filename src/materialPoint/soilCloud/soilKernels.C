@@ -45,7 +45,7 @@ class soilKernelsFor
             soilCloud::compactionRate,
             smooth ? c.points_.column(c.compression_) : nullptr,
             {},
-            soilCloud::smoothingFraction*c.maxWaveSpeed()
+            soilCloud::smoothingFraction*c.globalWaveSpeed_
            /c.grid_.cells().minSpacing(),
             0,
             &work_
