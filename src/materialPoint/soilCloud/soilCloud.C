@@ -6,6 +6,7 @@ License
 #include "soilCloud.H"
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
+#include <algorithm>
 
 namespace Foam
 {
@@ -111,6 +112,7 @@ Foam::mpm::soilCloud::soilCloud
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
     voidRatio_(points_.add("voidRatio", pointStorage::scalarValue)),
     compression_(-1),
+    compressionMean_(-1),
     compressionGradient_(-1),
     waterMomentum_(nullptr),
     liquidViscosity_(0),
@@ -129,7 +131,9 @@ Foam::mpm::soilCloud::soilCloud
     if (control.smoothing && model_->hasCompression())
     {
         compression_ =
-            points_.add("compressionLack", pointStorage::scalarValue);
+            points_.add("elasticCompression", pointStorage::scalarValue);
+        compressionMean_ =
+            points_.add("compressionMean", pointStorage::scalarValue);
         compressionGradient_ =
             points_.add("compressionGradient", pointStorage::vectorValue);
     }
@@ -225,6 +229,16 @@ void Foam::mpm::soilCloud::setState
     List<scalarField> whole(nStress, scalarField(volume.size()));
     forAll(whole, k) s.wholeStress[k] = whole[k].data();
     model_->initialise(grid_.nDim(), s);
+    if (compression_ >= 0)
+    {
+        // The start state counts as smooth
+        scalar* own = points_.column(compression_) + first;
+        model_->elasticCompression(s, own);
+        std::copy
+        (
+            own, own + s.n, points_.column(compressionMean_) + first
+        );
+    }
 }
 
 

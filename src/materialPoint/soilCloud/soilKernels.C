@@ -44,6 +44,7 @@ class soilKernelsFor
             {},
             soilCloud::compactionRate,
             smooth ? c.points_.column(c.compression_) : nullptr,
+            smooth ? c.points_.column(c.compressionMean_) : nullptr,
             {},
             soilCloud::smoothingFraction*c.globalWaveSpeed_
            /c.grid_.cells().minSpacing(),
