@@ -1,0 +1,148 @@
+"""Soil alone: a column that fails, flows and comes to rest; a block on a wall
+with friction."""
+
+import numpy as np
+import pytest
+
+from caseBuilder import G, Setup, box
+from test_wallJet import CloudPoints, body
+
+SAND = {  # soil C of the paper's Table 2
+    "rhoS": 2650, "d": 2e-3, "e0": 0.818, "E0": 216, "nu": 0.2, "n": 0.5,
+    "phiC": 30, "eRef": 0.827, "lambda": 0.0596, "xi": 0.365, "Ad": 0.7,
+    "kp": 0.0044, "np": 2.4, "nd": 2.9, "I0": 0.28, "muS": 0.577,
+    "muD": 0.660, "PhiC": 0.70, "dPhi": 0.29}
+L0 = 0.1
+
+
+def energyOfSoil(interval):
+    return {"energy": {
+        "type": "materialPointEnergy", "cloud": "soil",
+        "libs": '("libmpmFunctionObjects.so")',
+        "writeControl": "timeStep", "writeInterval": interval}}
+
+
+def column(n=10, mpm=None):
+    """Aspect ratio 1 on a floor with the friction of the sand"""
+    return Setup(
+        cells=(int(3.6*n), int(1.3*n)), h=L0/n, regions={}, energy=False,
+        sides={"ymin": ("wall", {"type": "frictional",
+                                 "frictionCoefficient": 0.577})},
+        soilWall="slip", mpm=mpm or {},
+        soil={"constitutiveModel": "elastoplasticMuI",
+              "elastoplasticMuICoeffs": SAND},
+        soilRegions={"column": box((0, 0), (L0, L0), stress="geostatic")},
+        functions=energyOfSoil(20),
+        # For decomposePar, which knows no patch type frictional
+        control={"libs": '("libmpmBackgroundGrid.so")'})
+
+
+@pytest.fixture(scope="module")
+def collapsed(tmp_path_factory):
+    case = column().until(0.8, 0.1).write(
+        tmp_path_factory.mktemp("column")/"case").prepare()
+    case.solve()
+    return case
+
+
+def last(case):
+    return CloudPoints(case, "soil", case.times[-1])
+
+
+def testColumnRunsOut(collapsed, figures):
+    """Between the scalings of Lube (1.2 a) and Lajeunesse (1.8 a), and 15 %
+    to either side"""
+    points = last(collapsed)
+    front = np.sort(points.x[:, 0])[int(0.995*len(points.x))]
+    figures.atLeast("run-out over L0", (front - L0)/L0, 0.85*1.2)
+    figures.atMost("run-out over L0", (front - L0)/L0, 1.15*1.8)
+
+
+def testColumnRests(collapsed, figures):
+    points = last(collapsed)
+    p, regime, e = (points[f] for f in ["p", "regime", "voidRatio"])
+    speed = np.sqrt((points.U**2).sum(axis=1))
+    figures.atMost("rms speed at the end, m/s", np.sqrt((speed**2).mean()), 5e-3)
+    figures.atMost("share of points without contact", (regime == 3).mean(), 0.02)
+    # Nothing but weight loads them; arching may add as much again
+    weight = 2650/1.818*G*points.x[:, 1].max()
+    figures.atMost("largest pressure over the weight above the floor",
+                   p.max()/weight, 2)
+    figures.atMost("largest solid fraction", (1/(1 + e)).max(), 0.70)
+
+
+def testColumnBalances(collapsed, figures):
+    mass = [CloudPoints(collapsed, "soil", t).mass.sum()
+            for t in (collapsed.times[0], collapsed.times[-1])]
+    figures.equal("points that left", collapsed.state(cloud="soil")["left"], 0)
+    figures.atMost("change of the mass, relative", abs(mass[1]/mass[0] - 1),
+                   1e-13)
+    series = collapsed.energies()
+    total = series["total"]
+    initial = abs(series["kinetic"][0] + series["potential"][0])
+    climb = (total - np.minimum.accumulate(total)).max()
+    figures.atMost("largest growth of the energy over its initial value",
+                   climb/initial, 1e-3)
+
+
+def testSmoothingCarries(tmp_path, collapsed, figures):
+    """Without smoothing few points carry all of the load"""
+    case = column(mpm={"smoothing": False}).until(0.8, 0.8).write(
+        tmp_path/"case").prepare()
+    case.solve()
+    figures.atLeast("share of points without contact, no smoothing",
+                    (last(case)["regime"] == 3).mean(), 0.2)
+
+
+def testTwoRanksEqualSerial(tmp_path, figures):
+    serial = column().steps(100).write(tmp_path/"serial").prepare()
+    parallel = serial.clone(tmp_path/"parallel")
+    parallel.decompose(
+        2, cellRank=parallel.case.cellCentres("0")[:, 0] > 0.06)
+    serial.solve()
+    parallel.solve(ranks=2)
+    a, b = (last(c) for c in (serial, parallel))
+    assert np.array_equal(a.id, b.id)
+    for name in ["x", "U", "sigma", "voidRatio", "elasticCompression"]:
+        u, v = a[name], b[name]
+        figures.atMost(f"{name}: relative difference",
+                       float(np.abs(u - v).max()/np.abs(u).max()), 1e-10)
+
+
+def testTwoRunsAreOne(tmp_path, figures):
+    split = column().until(0.02, 0.01).write(tmp_path/"split").prepare()
+    whole = split.clone(tmp_path/"whole")
+    whole.solve()
+    split.change(control={"endTime": 0.01})
+    split.rewrite()
+    split.solve()
+    split.change(control={"endTime": 0.02})
+    split.rewrite()
+    split.solve()
+    for time in ["0.01", "0.02"]:
+        place = f"{time}/lagrangian/soil"
+        names = sorted(p.name for p in (whole.path/place).iterdir())
+        assert "compressionMean" in names
+        figures.equal(f"{time} s: files that differ", [
+            n for n in names if body(split.path/place/n)
+            != body(whole.path/place/n)], [])
+
+
+def testBlockSlides(tmp_path, figures):
+    """g (sin - mu cos). The block is soft: stiff ones vibrate (README)"""
+    angle, mu, end = np.radians(20), 0.2, 0.4
+    case = Setup(
+        cells=(60, 12), h=0.01, regions={}, energy=False,
+        g=(G*np.sin(angle), -G*np.cos(angle), 0),
+        soilWall={"type": "frictional", "frictionCoefficient": mu},
+        soil={"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.6, "E": 1e5, "nu": 0.2}},
+        soilRegions={"block": box((0.1, 0), (0.2, 0.05), stress="geostatic")},
+    ).until(end, 0.1).write(tmp_path/"case").prepare()
+    case.solve()
+    exact = G*(np.sin(angle) - mu*np.cos(angle))
+    for time in ["0.2", "0.3", "0.4"]:
+        points = CloudPoints(case, "soil", time)
+        speed = (points.mass*points.U[:, 0]).sum()/points.mass.sum()
+        figures.atMost(f"{time} s: error of the speed, relative",
+                       abs(speed/(exact*float(time)) - 1), 0.01)
