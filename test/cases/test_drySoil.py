@@ -146,3 +146,33 @@ def testBlockSlides(tmp_path, figures):
         speed = (points.mass*points.U[:, 0]).sum()/points.mass.sum()
         figures.atMost(f"{time} s: error of the speed, relative",
                        abs(speed/(exact*float(time)) - 1), 0.01)
+
+
+def testCylinderCollapses(tmp_path, figures):
+    """In 3D: it flows to all sides alike, and rests"""
+    n = 2
+    case = Setup(
+        cells=(30, 30, 14), h=0.01, regions={}, energy=False, points=n,
+        soilWall={"type": "frictional", "frictionCoefficient": 0.577},
+        soil={"constitutiveModel": "elastoplasticMuI",
+              "elastoplasticMuICoeffs": SAND},
+        soilRegions={"cylinder": {
+            "type": "cylinder", "point1": (0.15, 0.15, 0),
+            "point2": (0.15, 0.15, 0.1), "radius": 0.05,
+            "stress": "geostatic"}},
+    ).until(0.5, 0.5).write(tmp_path/"case").prepare()
+    case.solve()
+    points = last(case)
+    start = CloudPoints(case, "soil", "0")
+    figures.equal("points", len(points.id), len(start.id))
+    figures.equal("values that are not finite", int(
+        (~np.isfinite(points.x)).sum() + (~np.isfinite(points.U)).sum()), 0)
+    centre = points.x[:, :2].mean(axis=0)
+    figures.atMost("shift of the centre, m", np.abs(centre - 0.15).max(), 1e-3)
+    radius = np.sort(np.hypot(*(points.x[:, :2] - centre).T))
+    figures.atLeast("run-out over radius", radius[int(0.995*len(radius))]/0.05
+                    - 1, 1)
+    figures.atMost("rms speed at the end, m/s", np.sqrt(
+        (points.U**2).sum(axis=1).mean()), 5e-3)
+    figures.atMost("share of points without contact",
+                   (points["regime"] == 3).mean(), 0.02)
