@@ -573,7 +573,9 @@ class RunningCase:
                 path = root/name/"uniform"/"time"
                 if path.is_file():
                     index = re.search(r"index\s+(\d+);", path.read_text())
-                    names[int(index[1])] = name
+                    # A killed run may leave its last one cut off
+                    if index:
+                        names[int(index[1])] = name
         return names
 
     def timeValue(self, name):
