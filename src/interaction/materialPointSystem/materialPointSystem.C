@@ -469,6 +469,12 @@ void Foam::mpm::materialPointSystem::reportEffects() const
             << " bytes per point, " << nodes/1e6 << " MB on nodes, mass "
             << cloud.globalMass() << " kg" << nl;
     }
+    if (interaction_.valid())
+    {
+        scalar nodes = interaction_->memory();
+        reduce(nodes, sumOp<scalar>());
+        Info<< "    coupling: " << nodes/1e6 << " MB on nodes" << nl;
+    }
     Info<< endl;
 }
 
