@@ -176,3 +176,45 @@ def testCylinderCollapses(tmp_path, figures):
         (points.U**2).sum(axis=1).mean()), 5e-3)
     figures.atMost("share of points without contact",
                    (points["regime"] == 3).mean(), 0.02)
+
+
+def testInitialStress(tmp_path, figures):
+    """geostatic: of all soil above, in two layers under a slope; uniform: as
+    given"""
+    given = (-500, 10, 0, -1000, 0, -700)
+    lower, upper = 0.695, 0.9
+    case = Setup(
+        cells=(20, 10), h=0.02, regions={}, energy=False,
+        soil={"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": lower, "E": 1e6, "nu": 0.2}},
+        soilRegions={
+            "base": box((0, 0), (0.2, 0.06), stress="geostatic", K0=0.5),
+            "slope": {
+                "type": "polygon", "plane": "xy", "voidRatio": upper,
+                "points": [(0, 0.06), (0.2, 0.06), (0, 0.16)],
+                "stress": "geostatic", "K0": 0.4},
+            "block": box((0.3, 0), (0.36, 0.06), stress="uniform",
+                         sigma=given)},
+    ).write(tmp_path/"case").prepare()
+    points = CloudPoints(case, "soil", "0")
+    x, y = points.x[:, 0], points.x[:, 1]
+    sigma = points["sigma"]
+    block = x > 0.25
+    figures.atMost("uniform: difference, Pa",
+                   np.abs(sigma[block] - given).max(), 0)
+
+    def weight(e):
+        return 2650/(1 + e)*G
+
+    surface = 0.16 - x/2
+    base = y < 0.06
+    exact = -np.where(base, weight(lower)*(0.06 - y)
+                      + weight(upper)*(surface - 0.06),
+                      weight(upper)*(surface - y))
+    # The way up is taken in steps of a 24th of a cell
+    step = 0.02/24*weight(lower)
+    figures.atMost("geostatic: error of the vertical stress, Pa",
+                   np.abs(sigma[:, 3] - exact)[~block].max(), step)
+    figures.atMost("geostatic: K0 of the layers, difference", np.abs(
+        sigma[:, 0]/sigma[:, 3] - np.where(base, 0.5, 0.4))[~block].max(),
+        1e-12)

@@ -12,9 +12,10 @@ Description
     Fills regions of the mesh with material points, as described by
     system/setMaterialPointsDict, and writes them to the start time.
 
-    Soil may be \c geostatic, with the vertical effective stress of its own
-    weight (buoyant if \c saturated) and K0 times that to the sides. Water
-    points inside a soil region fill its pores.
+    Soil may be \c geostatic, with the vertical effective stress of the soil
+    above it (buoyant where \c saturated) and K0 times that to the sides, or
+    start with a \c uniform effective stress. Water points inside a soil
+    region fill its pores.
 
     Runs in serial (before decomposePar) or in parallel (after it, without
     points), with the same points in both.
@@ -73,6 +74,7 @@ Usage
 #include "FlatOutput.H"
 #include "dictionaryEntries.H"
 #include "materialPointSystem.H"
+#include "cellZoneRegion.H"
 #include "pointRegion.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
@@ -393,47 +395,123 @@ static void setWaterState
 }
 
 
+//- Effective weight of soil in a region per volume [N/m3]
+static scalar effectiveWeight
+(
+    const mpm::soilCloud& soil,
+    const dictionary& dict,
+    const scalar g,
+    const mpm::waterCloud* water
+)
+{
+    const bool saturated =
+        mpm::readSwitchOrDefault(dict, "saturated", water != nullptr);
+    const scalar buoyancy = saturated && water ? water->fluid().rho0() : 0;
+
+    return (soil.model().rhoS() - buoyancy)/(1 + voidRatioOf(soil, dict))*g;
+}
+
+
+//- Weight of the soil above a position per area [Pa], met on the way up
+//  through all regions in steps of the given length
+static scalar overburden
+(
+    const point& x,
+    const vector& up,
+    const scalar step,
+    const boundBox& domain,
+    const std::vector<placedRegion>& regions,
+    const UList<scalar>& weights
+)
+{
+    scalar pressure = 0;
+    for (point y = x + 0.5*step*up; domain.contains(y); y += step*up)
+    {
+        forAll(weights, i)
+        {
+            if (regions[i].region->contains(y, -1))
+            {
+                pressure += weights[i]*step;
+                break;
+            }
+        }
+    }
+    return pressure;
+}
+
+
 //- Void ratio and effective stress of the soil
 static void setSoilState
 (
     mpm::soilCloud& soil,
     const std::vector<placedRegion>& regions,
-    const scalar volume,
+    const dictionary& cloudDict,
     const vector& up,
     const scalar g,
     const mpm::waterCloud* water
 )
 {
+    const mpm::lattice& cells = soil.grid().cells();
+    const scalar volume = pointVolume(cells, cloudDict);
+
+    // Whole steps from the point of a regular bed to a face of its cell
+    scalar step = GREAT;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        const scalar along = mag(up[cells.axis(d)]);
+        if (along > SMALL) step = min(step, cells.spacing(d)/along);
+    }
+    step /= 8*cloudDict.get<label>("pointsPerDirection");
+
+    // Of the whole case: what lies above may be on another rank
+    boundBox domain(soil.grid().mesh().points(), true);
+
+    scalarList weights;
     for (const placedRegion& r : regions)
     {
+        weights.append(effectiveWeight(soil, r.dict, g, water));
+    }
+
+    forAll(weights, regioni)
+    {
+        const placedRegion& r = regions[regioni];
         const label n = r.last - r.first;
         const scalar e = voidRatioOf(soil, r.dict);
-        const bool geostatic =
+        const word stress
+        (
             mpm::readChoiceOrDefault
             (
-                r.dict, "stress", "none", {"none", "geostatic"}
-            ) == "geostatic";
+                r.dict, "stress", "none", {"none", "geostatic", "uniform"}
+            )
+        );
         const scalar K0 = mpm::readBoundedOrDefault
         (
             r.dict, "K0", dimless, soil.model().K0(), 0, GREAT, true
         );
-        const bool saturated =
-            mpm::readSwitchOrDefault(r.dict, "saturated", water != nullptr);
-
-        const scalar buoyancy =
-            saturated && water ? water->fluid().rho0() : 0;
-        const scalar weight = (soil.model().rhoS() - buoyancy)/(1 + e)*g;
 
         symmTensorField sigma(n, Zero);
-        if (geostatic)
+        if (stress == "uniform")
+        {
+            sigma = r.dict.get<symmTensor>("sigma");
+        }
+        else if (stress == "geostatic")
         {
             const symmTensor direction =
                 sqr(up) + K0*(symmTensor::I - sqr(up));
+
+            // Which cells lie above is not known of a zone
+            const bool flat =
+                g == 0
+             || r.dict.found("level")
+             || isA<mpm::cellZoneRegion>(*r.region);
             forAll(sigma, i)
             {
-                const scalar depth =
-                    r.level - (up & position(soil, r.first + i));
-                sigma[i] = -weight*max(scalar(0), depth)*direction;
+                const point x(position(soil, r.first + i));
+                const scalar pressure =
+                    flat
+                  ? weights[regioni]*max(scalar(0), r.level - (up & x))
+                  : overburden(x, up, step, domain, regions, weights);
+                sigma[i] = -pressure*direction;
             }
         }
         soil.setState(r.first, scalarField(n, volume), scalarField(n, e), sigma);
@@ -512,7 +590,7 @@ int main(int argc, char *argv[])
         inWater = place
         (
             *water, dict, mesh, up,
-            {"voidRatio", "stress", "K0", "saturated"}, strict
+            {"voidRatio", "stress", "sigma", "K0", "saturated"}, strict
         );
         setWaterState
         (
@@ -523,8 +601,7 @@ int main(int argc, char *argv[])
     {
         setSoilState
         (
-            *soil, inSoil, pointVolume(cells, setDict.subDict(soil->name())),
-            up, g, water
+            *soil, inSoil, setDict.subDict(soil->name()), up, g, water
         );
     }
 

@@ -23,7 +23,7 @@ Foam::wordList Foam::mpm::pointRegion::keywords(const wordList& own)
     ({
         "type", "velocity", "velocityGradient", "centre",
         "pressure", "p", "level",
-        "voidRatio", "stress", "K0", "saturated"
+        "voidRatio", "stress", "sigma", "K0", "saturated"
     });
     all.append(own);
     return all;
