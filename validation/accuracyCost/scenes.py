@@ -1,0 +1,333 @@
+"""The scenes of the study: runs, and the error of each."""
+
+import sys
+
+import numpy as np
+
+from mpmfoam import reference, study, wave
+from mpmfoam.postProcessing import readDat
+
+REPOSITORY = reference.repository()
+TUTORIALS = REPOSITORY/"tutorials"
+for other in ["validation/damBreak", "validation/columnCollapse",
+              "tutorials/standingWave"]:
+    sys.path.insert(0, str(REPOSITORY/other))
+
+import columnCollapse as column  # noqa: E402
+import damBreak as dam  # noqa: E402
+from makeWave import gaugePoints, waveSurface  # noqa: E402
+
+FLUID = "water/weaklyCompressibleNewtonianCoeffs"
+MPM = "system/fvSolution"
+PROPERTIES = "constant/materialPointProperties"
+POINTS = "system/setMaterialPointsDict"
+
+
+def merged(*parts):
+    out = {}
+    for part in parts:
+        for file, entries in part.items():
+            out.setdefault(file, {}).update(entries)
+    return out
+
+
+class Scene:
+    """A default and, one at a time, what is changed of it. A variant is
+    (factor, value as text, cells per default cell, points per direction,
+    settings)."""
+
+    title = errorName = None
+    clouds = ["water"]
+    h = points = None           # default
+    grids = []                  # cells per default cell
+    pointCounts = []
+
+    def template(self):
+        return TUTORIALS/self.name
+
+    @property
+    def name(self):
+        return type(self).__name__[0].lower() + type(self).__name__[1:]
+
+    def settings(self, finer, points):
+        """What a grid and a number of points ask for"""
+        raise NotImplementedError
+
+    def files(self, finer):
+        return {}
+
+    def reference(self):
+        """Grid and points of the run that counts as exact; none if there is
+        analysis"""
+        return None
+
+    def common(self):
+        """Numerics that all scenes try"""
+        for shape in ["linear", "cubicBSpline"]:
+            # APIC with linear functions is refused
+            change = {MPM: {"MPM/shapeFunction": shape}}
+            if shape == "linear":
+                change[PROPERTIES] = {f"{c}/transfer": "FLIP"
+                                      for c in self.clouds}
+            yield "shape", shape, 1, self.points, change
+        for maxCo in [0.1, 0.25, 0.7]:
+            yield ("maxCo", f"Co {maxCo}", 1, self.points,
+                   {MPM: {"MPM/maxCo": maxCo}})
+        yield ("smoothing", "none", 1, self.points,
+               {MPM: {"MPM/smoothing": "no"}})
+
+    def waterTransfers(self):
+        for name, entries in [
+                ("PIC", {"transfer": "PIC"}),
+                ("XPIC", {"transfer": "XPIC"}),
+                ("FLIP", {"transfer": "FLIP", "flipDampingRate": 20}),
+                ("APIC 1e9/s", {"apicRate": 1e9})]:
+            yield ("transfer", name, 1, self.points, {PROPERTIES: {
+                f"water/{k}": v for k, v in entries.items()}})
+
+    def variants(self):
+        yield "default", "", 1, self.points, {}
+        for finer in self.grids:
+            yield "grid", f"h {self.h/finer:.3g}", finer, self.points, {}
+        for n in self.pointCounts:
+            yield "points", f"{n*n}/cell", 1, n, {}
+        yield from self.common()
+
+    def runs(self):
+        variants = list(self.variants())
+        if self.reference():
+            finer, points = self.reference()
+            variants.append(("reference", "", finer, points, {}))
+        for factor, value, finer, points, change in variants:
+            yield study.Run(
+                self.label(factor, value), [self.template()], study.MPMFOAM,
+                merged(self.settings(finer, points),
+                       {MPM: {"MPM/logInterval": 100}}, change),
+                self.files(finer),
+                about={"scene": self.name, "factor": factor, "value": value,
+                       "h": self.h/finer})
+
+    def label(self, *words):
+        return f"{self.name}/" + "_".join(filter(None, words)).replace(
+            " ", "").replace("/", "per")
+
+    def ready(self, done):
+        return not self.reference() or self.label("reference") in done
+
+    def error(self, run, done):
+        raise NotImplementedError
+
+    def more(self, rows, done):
+        return {}
+
+
+class DamBreak(Scene):
+    title = "dam break to 0.18 s"
+    errorName = "water misplaced, mean of four times, against the finest run"
+    h, points = 0.005, 4
+    grids = [0.25, 0.5, 2]
+    pointCounts = [1, 2, 3]
+    END = 0.18
+
+    def reference(self):
+        return 4, 4
+
+    def mesh(self, finer):
+        h = self.h/finer
+        return {"system/blockMeshDict": {
+            "h": h, "nx": round(dam.WIDTH/h), "ny": round(dam.HEIGHT/h)},
+            "system/controlDict": {"endTime": self.END}}
+
+    def settings(self, finer, points):
+        return merged(self.mesh(finer), {
+            POINTS: {"water/pointsPerDirection": points}})
+
+    def variants(self):
+        yield from super().variants()
+        yield from self.waterTransfers()
+        yield ("smoothing", "no correction", 1, self.points,
+               {MPM: {"MPM/volumeCorrection": "no"}})
+
+    def runs(self):
+        yield from super().runs()
+        for finer in self.grids + [1, self.reference()[0]]:
+            h = self.h/finer
+            yield study.Run(
+                self.label("interFoam", f"h{h:.3g}"),
+                [REPOSITORY/"validation"/"damBreak"/"interFoam",
+                 (dam.TUTORIAL/"system"/"blockMeshDict",
+                  "system/blockMeshDict"),
+                 (dam.TUTORIAL/"constant"/"g", "constant/g")],
+                study.INTERFOAM, self.mesh(finer),
+                about={"scene": self.name, "factor": "interFoam",
+                       "value": f"h {h:.3g}", "h": h})
+
+    def ready(self, done):
+        return super().ready(done) and self.finestInterFoam() in done
+
+    def finestInterFoam(self):
+        return self.label("interFoam", f"h{self.h/self.reference()[0]:.3g}")
+
+    @staticmethod
+    def depth(run, time):
+        x, _, alpha = run.case.lattice(run.case.nearestTime(time),
+                                       "alpha.water")
+        return x, alpha.sum(axis=0)*run.about["h"]
+
+    def distance(self, run, exact):
+        """Volume that lies elsewhere, over that of the water"""
+        out = []
+        for time in dam.PICTURES:
+            x, fine = self.depth(exact, time)
+            coarse = np.interp(x, *self.depth(run, time))
+            out.append(0.5*np.abs(coarse - fine).sum()/fine.sum())
+        return float(np.mean(out))
+
+    def error(self, run, done):
+        """Against the finest run of the same code"""
+        own = self.finestInterFoam() if run.about["factor"] == "interFoam" \
+            else self.label("reference")
+        return self.distance(run, done[own]) or np.nan
+
+    def more(self, rows, done):
+        """Time of both codes at the errors that both reach, by interpolation
+        along their grids"""
+        exact, other = done[self.label("reference")], \
+            done[self.finestInterFoam()]
+        out = {"damBreak_finestRunsApart": self.distance(other, exact)}
+        curves = {}
+        for code, factors in [("mpmFoam", ("grid", "default")),
+                              ("interFoam", ("interFoam",))]:
+            curve = sorted((r["error"], r["cpuTime"]) for r in rows
+                           if r["factor"] in factors and r["error"] > 0)
+            curves[code] = np.log(np.array(curve).T)
+        low = max(c[0].min() for c in curves.values())
+        high = min(c[0].max() for c in curves.values())
+        for level in np.linspace(low, high, 3):
+            times = {code: np.exp(np.interp(level, *curve))
+                     for code, curve in curves.items()}
+            out[f"damBreak_timeOverInterFoam_error{np.exp(level):.2g}"] = \
+                times["mpmFoam"]/times["interFoam"]
+        return out
+
+
+class StandingWave(Scene):
+    title = "standing wave, five periods"
+    errorName = "rms difference from linear theory over the amplitude"
+    h, points = 0.025, 4
+    grids = [0.5, 2]
+    pointCounts = [2, 3]
+
+    def settings(self, finer, points):
+        h = self.h/finer
+        return {"system/blockMeshDict": {
+            "h": h, "nx": round(1/h), "ny": round(0.6/h)},
+            POINTS: {"water/pointsPerDirection": points}}
+
+    def files(self, finer):
+        return {"system/waveSurface": waveSurface(1, 0.5, 0.01, 1),
+                "system/gaugePoints": gaugePoints(1, round(finer/self.h))}
+
+    def variants(self):
+        yield from super().variants()
+        yield from self.waterTransfers()
+        yield ("smoothing", "no correction", 1, self.points,
+               {MPM: {"MPM/volumeCorrection": "no"}})
+
+    def error(self, run, done):
+        gauge = readDat(run.path, "gauge", "waveGauge.dat")
+        t, heights = gauge[:, 0], gauge[:, 1:-1]
+        x = (np.arange(heights.shape[1]) + 0.5)/heights.shape[1]
+        omega = wave.omegaLinear(1, 0.5)
+        a = wave.modeAmplitude(heights, x, 1)
+        # Of its own start: on coarse grids whole points are cut
+        w, rate, start, _ = wave.fit(t, a, omega)
+        rate -= 2e-6*np.pi**2
+        return float(np.sqrt(np.mean(
+            (np.exp(-rate*t)*np.cos(w*t) - np.cos(omega*t))**2)))
+
+
+class ColumnCollapse(Scene):
+    title = "collapse of a column of soil C, a = 2"
+    errorName = "soil misplaced at rest, against the finest run"
+    clouds = ["soil"]
+    h, points = 0.005, 2
+    grids = [0.5, 2]
+    pointCounts = [1, 3]
+
+    def reference(self):
+        return 3, 2
+
+    def settings(self, finer, points):
+        run = column.collapse(2, round(20*finer))
+        return merged(run.settings, {POINTS: {
+            "soil/pointsPerDirection": points}})
+
+    def variants(self):
+        yield from super().variants()
+        for name, entries in [("APIC", {"transfer": "APIC"}),
+                              ("FLIP 5/s", {"flipDampingRate": 5}),
+                              ("FLIP 80/s", {"flipDampingRate": 80})]:
+            yield ("transfer", name, 1, self.points, {PROPERTIES: {
+                f"soil/{k}": v for k, v in entries.items()}})
+        for cap in [5, 10, 20]:
+            yield ("stiffness", f"{cap} m/s", 1, self.points,
+                   {MPM: {"MPM/maxSoilSoundSpeed": cap}})
+
+    @staticmethod
+    def deposit(run, edges):
+        case = run.case
+        last = case.times()[-1]
+        x, m = (case.cloudField(last, "soil", f) for f in ["x", "mass"])
+        return np.histogram(x[:, 0], edges, weights=m)[0]/m.sum()
+
+    def error(self, run, done):
+        # In columns that are wider than the cells of all
+        edges = np.arange(0, 1, 0.02)
+        return float(0.5*np.abs(
+            self.deposit(run, edges)
+            - self.deposit(done[self.label("reference")], edges)).sum())
+
+
+class WallJet(Scene):
+    title = "wall jet to 1 s"
+    errorName = "error of the eroded area, mean 0.2-1 s, against the finest run"
+    clouds = ["water", "soil"]
+    h, points = 0.01, 2
+    grids = [2]
+    pointCounts = [1, 3, 4]
+    END = 1
+    COUNTS = {"nx0": 70, "nx1": 4, "nx2": 98, "nx3": 50,
+              "ny0": 5, "ny1": 5, "ny2": 15}
+
+    def reference(self):
+        return 3, 2
+
+    def settings(self, finer, points):
+        return {"system/blockMeshDict": {
+            "h": self.h/finer,
+            **{k: finer*n for k, n in self.COUNTS.items()}},
+            "system/controlDict": {"endTime": self.END},
+            POINTS: {f"{c}/pointsPerDirection": points for c in self.clouds}}
+
+    def variants(self):
+        yield from super().variants()
+        yield from self.waterTransfers()
+        yield ("transfer", "soil APIC", 1, self.points,
+               {PROPERTIES: {"soil/transfer": "APIC"}})
+        for cap in [5, 10, 20]:
+            yield ("stiffness", f"{cap} m/s", 1, self.points,
+                   {MPM: {"MPM/maxSoilSoundSpeed": cap}})
+
+    @staticmethod
+    def area(run):
+        rows = readDat(run.path, "scour", "scourProfile.dat")
+        return np.interp(np.arange(0.2, 1.01, 0.05), rows[:, 0], rows[:, 5])
+
+    def error(self, run, done):
+        exact = self.area(done[self.label("reference")])
+        return float(np.abs(self.area(run) - exact).mean()/exact.mean())
+
+
+SCENES = {scene.name: scene for scene in [
+    DamBreak(), StandingWave(), ColumnCollapse(), WallJet()]}
