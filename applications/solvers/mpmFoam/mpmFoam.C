@@ -77,10 +77,12 @@ int main(int argc, char *argv[])
 
     while (runTime.run())
     {
+        // First, because the time step depends on how the soil deforms
+        points.particlesToGrid();
+
         points.setDeltaT(runTime);
         points.advance(runTime);
 
-        points.particlesToGrid();
         points.updateStress();
         points.updateNodes();
         points.gridToParticles();

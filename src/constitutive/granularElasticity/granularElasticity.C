@@ -123,6 +123,27 @@ Foam::scalar Foam::mpm::granularElasticity::bulkModulus
 }
 
 
+Foam::scalar Foam::mpm::granularElasticity::compressedModulus
+(
+    const scalar compression,
+    const scalar e
+) const
+{
+    return forLaw
+    (
+        law_,
+        [&](auto l)
+        {
+            constexpr law L = decltype(l)::value;
+            const scalar a = coefficient<L>(e);
+            scalar k;
+            pressure<L>(a*compression, rangeAt<L>(e), k);
+            return a*k;
+        }
+    );
+}
+
+
 Foam::scalar Foam::mpm::granularElasticity::compression
 (
     const scalar p,

@@ -317,6 +317,16 @@ Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT(word& limiter)
             limiter = speed > wave ? "advection" : cloud.waveName();
         }
 
+        // What meets may be as stiff at the end of the step as an impact makes
+        // it; only then the step comes near the limit of stability
+        const scalar impact =
+            cloud.impactDeltaT(wave, max(maxCo_, stableCo))/maxCo_;
+        if (impact < limit)
+        {
+            limit = impact;
+            limiter = "impact";
+        }
+
         // Explicit diffusion of momentum; maxCo applies to waves only
         const scalar nu = cloud.viscosity();
         if (nu > 0)
@@ -555,6 +565,7 @@ void Foam::mpm::materialPointSystem::stop(Time& runTime)
 void Foam::mpm::materialPointSystem::particlesToGrid()
 {
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
+    if (soil_) soil_->findStrainRates();
     if (interaction_.valid()) interaction_->mixture();
     fieldsCurrent_ = false;
 }

@@ -117,6 +117,8 @@ Foam::mpm::soilCloud::soilCloud
     waterMomentum_(nullptr),
     liquidViscosity_(0),
     liquidSoundSpeed_(0),
+    compressionRate_(0),
+    shearRate_(0),
     waveSpeedSqr_(0),
     viscosity_(0),
     minVoidRatio_(GREAT),
@@ -255,6 +257,93 @@ Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
     const scalar porosity =
         minVoidRatio_ < GREAT ? minVoidRatio_/(1 + minVoidRatio_) : 1;
     return std::sqrt(waveSpeedSqr_ + sqr(liquidSoundSpeed_)/porosity);
+}
+
+
+void Foam::mpm::soilCloud::findStrainRates()
+{
+    const label dim = grid_.nDim();
+    const lattice& cells = grid_.cells();
+
+    compressionRate_ = 0;
+    scalar shearSqr = 0;
+
+    for (const auto& range : order_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            if (!(nodes_.momentum[i][dim] > 0)) continue;
+
+            // One-sided: no gradient at a point is larger than the largest
+            tensor L(Zero);
+            for (label d = 0; d < dim; ++d)
+            {
+                const label j = i + grid_.stride(d);
+                if (j >= grid_.nNodes() || !(nodes_.momentum[j][dim] > 0))
+                {
+                    continue;
+                }
+                for (label c = 0; c < dim; ++c)
+                {
+                    L(c, d) =
+                        (nodes_.velocity[j][c] - nodes_.velocity[i][c])
+                       /cells.spacing(d);
+                }
+            }
+            compressionRate_ = max(compressionRate_, -tr(L));
+            shearSqr = max(shearSqr, 0.5*magSqr(dev(symm(L))));
+        }
+    }
+    reduce(compressionRate_, maxOp<scalar>());
+    reduce(shearSqr, maxOp<scalar>());
+    shearRate_ = std::sqrt(shearSqr);
+}
+
+
+Foam::scalar Foam::mpm::soilCloud::impactDeltaT
+(
+    const scalar waveSpeed,
+    const scalar courant
+) const
+{
+    const scalar h = courant*grid_.cells().minSpacing();
+    const scalar e = min(minVoidRatio_, model_->e0());
+
+    auto tooLarge = [&](const scalar deltaT)
+    {
+        return
+            sqr(deltaT)
+           *(
+                sqr(waveSpeed)
+              + model_->compressedWaveSpeedSqr(compressionRate_*deltaT, e)
+            )
+          > sqr(h);
+    };
+
+    // As large as the flow allows; where that is too large, the root of a
+    // growing function, to a thousandth
+    scalar high = h/max(waveSpeed, SMALL);
+    if (compressionRate_*high < SMALL || !tooLarge(high)) return GREAT;
+
+    high = min(high, 1/compressionRate_);
+    while (tooLarge(high)) high *= 0.5;
+
+    scalar low = high;
+    for (scalar step = 0.5*high; step > 1e-3*high; step *= 0.5)
+    {
+        if (!tooLarge(low + step)) low += step;
+    }
+    return low;
+}
+
+
+Foam::scalar Foam::mpm::soilCloud::viscosity() const
+{
+    return max
+    (
+        viscosity_,
+        model_->viscosity(shearRate_, min(minVoidRatio_, model_->e0()))
+    );
 }
 
 

@@ -149,6 +149,19 @@ Foam::scalar Foam::mpm::granularModel::waveSpeedSqr
 }
 
 
+Foam::scalar Foam::mpm::granularModel::compressedWaveSpeedSqr
+(
+    const scalar compression,
+    const scalar voidRatio
+) const
+{
+    return elasticity_.waveSpeedSqr
+    (
+        elasticity_.compressedModulus(compression, voidRatio), voidRatio
+    );
+}
+
+
 void Foam::mpm::granularModel::elasticCompression
 (
     const soilPoints& points,
