@@ -665,6 +665,37 @@ TEST_CASE("elastoplasticMuI: the viscous part alone")
 }
 
 
+TEST_CASE("elastoplasticMuI: the viscous part never does work on net")
+{
+    const autoPtr<soilModel> m(sandModel());
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<scalar> rate(-100, 100);
+    scalar least = 0;
+    label expanding = 0;
+    for (label i = 0; i < 1000; ++i)
+    {
+        // Without skeleton stress all of the stress is viscous
+        soilElement s(*m, 3, 0.9, 0);
+        tensor L;
+        for (direction c = 0; c < 9; ++c) L[c] = rate(engine);
+        L += (i % 4)*50*tensor::I;
+        for (int c = 0; c < 3; ++c)
+        for (int d = 0; d < 3; ++d)
+        {
+            s.L(c, d) = L(c, d);
+        }
+        s.step(1e-12);
+        const symmTensor D(symm(L));
+        scalar size = 0;
+        for (int c = 0; c < 6; ++c) size += mag(s.whole[c]);
+        least = min(least, s.power/(size*mag(D)));
+        expanding += tr(D) > 1.4*std::sqrt(0.5*magSqr(dev(D)));
+    }
+    atMost("work done over the sum of its parts", -least, 1e-9);
+    atLeast("samples that expand faster than they shear", expanding, 50);
+}
+
+
 TEST_CASE("elastoplasticMuI: regimes")
 {
     const autoPtr<soilModel> m

@@ -571,6 +571,15 @@ void Foam::mpm::granularModel::addViscous
                 block.shearRateSqr[j], block.e[j], block.p[j],
                 viscosity, pressure, I
             );
+
+            // In expansion faster than shear the dispersive pressure would
+            // do more work than viscosity dissipates: grains that are large
+            // for their cells would drive themselves apart without end
+            pressure = min
+            (
+                pressure,
+                2*viscosity*block.shearRateSqr[j]/max(block.trace[j], VSMALL)
+            );
         }
         else
         {
