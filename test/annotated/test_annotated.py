@@ -22,6 +22,7 @@ EXPLAINED_IN = {
     "src/materialPoint/waterCloud": "materialPointProperties",
     "src/materialPoint/soilCloud": "materialPointProperties",
     "src/materialPoint/transfer": "materialPointProperties",
+    "src/materialPoint/inflowOutflow": "materialPointProperties",
     "src/constitutive": "materialPointProperties",
     "src/constitutive/soilModel": "soilModels",
     "src/constitutive/granularElasticity": "soilModels",
@@ -122,6 +123,8 @@ def testDefault(source, entry):
     ("src/materialPoint/transfer", "transferScheme", "materialPointProperties"),
     ("src/materialPoint/pointRegion", "pointRegion", "setMaterialPointsDict"),
     ("src/interaction/dragModel", "dragModel", "materialPointProperties"),
+    ("src/materialPoint/inflowOutflow/outlet", "outlet",
+     "materialPointProperties"),
 ])
 def testModels(family, base, name):
     models = [d.name for d in (ROOT/family).iterdir() if d.is_dir()]
@@ -164,7 +167,7 @@ def blockMeshDict():
     cellZone pool"""
     bottom = ["smoothWall", "symmetryPlane", "symmetry", "roughWall",
               "slidingWall"]
-    top = ["atmosphere"]*2 + ["outlet"]*3
+    top = ["atmosphere"]*2 + ["outlet"]*2 + ["inlet"]
     faces = {name: [] for name in bottom + top
              + ["left", "right", "frontAndBack"]}
     types = {"symmetryPlane": "symmetryPlane", "symmetry": "symmetry",
@@ -262,6 +265,7 @@ def testAccepted(tmp_path):
     assert text.rstrip().endswith("End")
     assert "unknown keyword" not in text
     for output in ["energy/0/energy.dat", "front/0/front.dat",
-                   "gauge/0/waveGauge.dat", "scour/0/scourProfile.dat",
+                   "gauge/0/waveGauge.dat",
+                   "balance/0/massBalance.dat", "scour/0/scourProfile.dat",
                    "scour/0/profile.csv", "pressure/0/p"]:
         assert (tmp_path/"postProcessing"/output).stat().st_size > 0

@@ -543,13 +543,18 @@ TEST_CASE("nodeBoundary: openings")
         "opening beside a wall", s.image({5, 0, 0}, {7, -1, 0}),
         "7 1 signs 1 -1 mass 1 shift 0 0"
     );
-    equal("beyond the right", label(s.boundary->beyondOpening(s.at(6, 2))), 1);
-    equal("beyond the top", label(s.boundary->beyondOpening(s.at(3, 5))), 1);
-    equal("beyond the left", label(s.boundary->beyondOpening(s.at(-1, 2))), 0);
-    equal
-    (
-        "beyond the bottom", label(s.boundary->beyondOpening(s.at(3, -1))), 0
-    );
+    auto patchBeyond = [&](const int i, const int j)
+    {
+        const label patchi = s.boundary->beyondOpening(s.at(i, j));
+        return
+            patchi < 0
+          ? std::string("none")
+          : std::string(s.grid->mesh().boundaryMesh()[patchi].name());
+    };
+    equal("beyond the right", patchBeyond(6, 2), "right");
+    equal("beyond the top", patchBeyond(3, 5), "top");
+    equal("beyond the left", patchBeyond(-1, 2), "none");
+    equal("beyond the bottom", patchBeyond(3, -1), "none");
 }
 
 

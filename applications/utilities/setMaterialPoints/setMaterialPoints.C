@@ -304,7 +304,9 @@ static std::vector<placedRegion> place
             }
         );
     }
-    if (regions.empty())
+    // A cloud may be filled by its inlets
+    const mpm::inflowOutflow* open = cloud.openBoundaries();
+    if (regions.empty() && !(open && open->inlets().size()))
     {
         FatalIOErrorInFunction(dict)
             << "keyword regions: no region given." << nl
@@ -354,7 +356,7 @@ static void setWaterState
 {
     scalar surface = -GREAT;
     for (const placedRegion& r : regions) surface = max(surface, r.level);
-    water.findSoundSpeed(surface, 0);
+    water.findSoundSpeed(surface);
 
     for (const placedRegion& r : regions)
     {

@@ -38,6 +38,7 @@ namespace
 void Foam::mpm::nodeBoundary::findSides
 (
     const volVectorField& U,
+    const labelList& inflowOfCell,
     List<FixedList<sideType, 6>>& side,
     HashTable<nodeVector, label, Hash<label>>& wallVelocity
 )
@@ -102,16 +103,20 @@ void Foam::mpm::nodeBoundary::findSides
             }
             if (kind == open)
             {
-                beyondOpening_.insert
+                beyondOpening_.set
                 (
                     grid_.boxCell(faceCells[i])
-                  + (s ? 1 : -1)*grid_.stride(d)
+                  + (s ? 1 : -1)*grid_.stride(d),
+                    Up.patch().index()
                 );
             }
             else if (kind == fixedWall)
             {
+                // A closed inlet is at rest
+                const bool inlet =
+                    !inflowOfCell.empty() && inflowOfCell[faceCells[i]] >= 0;
                 nodeVector value{};
-                for (label k = 0; k < grid_.nDim(); ++k)
+                for (label k = 0; !inlet && k < grid_.nDim(); ++k)
                 {
                     value[k] = Up[i][cells.axis(k)];
                 }
@@ -125,7 +130,8 @@ void Foam::mpm::nodeBoundary::findSides
 void Foam::mpm::nodeBoundary::buildStencils
 (
     const List<FixedList<sideType, 6>>& side,
-    const HashTable<nodeVector, label, Hash<label>>& wallVelocity
+    const HashTable<nodeVector, label, Hash<label>>& wallVelocity,
+    const labelList& inflowOfCell
 )
 {
     const label nDim = grid_.nDim();
@@ -256,6 +262,21 @@ void Foam::mpm::nodeBoundary::buildStencils
 
         if (!plain)
         {
+            const label inlet =
+                inflowOfCell.empty() ? -1 : inflowOfCell[celli];
+            inflowOf_.push_back(inlet);
+            for (label t = 0; inlet >= 0 && t < reachSize; ++t)
+            {
+                const nodeVector& s = sign[t];
+                if (s[0] == 1 && s[1] == 1 && s[2] == 1) continue;
+                inflows_[inlet].entries.push_back
+                (
+                    size_t(nStencils)*reachSize + t
+                );
+                inflows_[inlet].closedSign.push_back(s);
+                inflows_[inlet].closedShift.push_back(shift[t]);
+            }
+
             stencilIndex_[cell] = nStencils++;
             target_.insert(target_.end(), target.begin(), target.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
@@ -276,6 +297,9 @@ bool Foam::mpm::nodeBoundary::foldAlike
 ) const
 {
     if (a.stencil < 0 || b.stencil < 0) return a.stencil == b.stencil;
+
+    // The zone of an inlet folds in another way while it is open
+    if (inflowOf_[a.stencil] != inflowOf_[b.stencil]) return false;
 
     const label W = grid_.tileWidth();
     const label R = grid_.reachWidth();
@@ -570,17 +594,33 @@ Foam::mpm::nodeBoundary::nodeBoundary
 (
     const backgroundGrid& grid,
     const volVectorField& U,
-    const cornerType corners
+    const cornerType corners,
+    const std::vector<const inflowZone*>& inlets
 )
 :
     grid_(grid),
-    corners_(corners)
+    corners_(corners),
+    inflows_(inlets.size())
 {
     List<FixedList<sideType, 6>> side;
     HashTable<nodeVector, label, Hash<label>> wallVelocity;
 
-    findSides(U, side, wallVelocity);
-    buildStencils(side, wallVelocity);
+    labelList inflowOfCell;
+    if (inlets.size())
+    {
+        inflowOfCell.setSize(grid.mesh().nCells(), -1);
+        for (size_t i = 0; i < inlets.size(); ++i)
+        {
+            for (const label celli : inlets[i]->meshCells())
+            {
+                inflowOfCell[celli] = label(i);
+            }
+            inflows_[i].nodes = inlets[i]->nodes();
+        }
+    }
+
+    findSides(U, inflowOfCell, side, wallVelocity);
+    buildStencils(side, wallVelocity, inflowOfCell);
     buildTiles();
     buildConstraints(side, wallVelocity);
     buildControlVolumes();
@@ -589,6 +629,10 @@ Foam::mpm::nodeBoundary::nodeBoundary
     activeFixed_ = identity(fixedNodes_.size());
     activeCones_ = identity(label(cones_.size()));
     activeFriction_ = identity(label(frictionNodes_.size()));
+    for (inflow& in : inflows_)
+    {
+        in.active = UList<label>(in.nodes.data(), label(in.nodes.size()));
+    }
 }
 
 
@@ -618,6 +662,36 @@ void Foam::mpm::nodeBoundary::activate(const bitSet& active)
         if (active.test(frictionNodes_[i].node)) list.append(i);
     }
     activeFriction_ = list;
+
+    for (inflow& in : inflows_)
+    {
+        list.clear();
+        for (const label node : in.nodes)
+        {
+            if (active.test(node)) list.append(node);
+        }
+        in.active = list;
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::setInflow
+(
+    const label inlet,
+    const bool open,
+    const nodeVector& velocity
+)
+{
+    inflow& in = inflows_[inlet];
+    in.velocity = velocity;
+    if (in.open == open) return;
+
+    in.open = open;
+    for (size_t i = 0; i < in.entries.size(); ++i)
+    {
+        sign_[in.entries[i]] = open ? ones() : in.closedSign[i];
+        shift_[in.entries[i]] = open ? nodeVector{} : in.closedShift[i];
+    }
 }
 
 
@@ -640,6 +714,18 @@ void Foam::mpm::nodeBoundary::constrain
         for (label d = 0; d < nDim; ++d)
         {
             v[d] = homogeneous ? 0 : fixedValue_[i][d];
+        }
+    }
+
+    for (const inflow& in : inflows_)
+    {
+        if (!in.open) continue;
+        for (const label node : in.active)
+        {
+            for (label d = 0; d < nDim; ++d)
+            {
+                velocity[node][d] = homogeneous ? 0 : in.velocity[d];
+            }
         }
     }
 

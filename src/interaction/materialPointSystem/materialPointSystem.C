@@ -692,13 +692,23 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         reduce(speed, maxOp<scalar>());
         const label contacts =
             returnReduce(cloud.counts().wallContacts, sumOp<label>());
-        const label left = returnReduce(cloud.counts().left, sumOp<label>());
+        const label left =
+            returnReduce(cloud.counts().left.n, sumOp<label>());
 
         Info<< cloud.name() << ": points " << cloud.globalSize()
             << ", max speed " << speed << " m/s";
         if (left) Info<< ", left through openings " << left;
         if (contacts) Info<< ", put back from walls " << contacts;
         Info<< nl;
+        if (cloud.openBoundaries())
+        {
+            const inflowOutflow::balance b(cloud.accounts());
+            Info<< cloud.name() << ": entered " << b.entered.n << ", left "
+                << b.left.n << ", left elsewhere " << b.elsewhere.n
+                << ", waiting " << b.waiting.n << ", allocated "
+                << b.allocated << ", balance " << b.imbalance() << ", mass "
+                << b.massImbalance() << " kg" << nl;
+        }
     }
 
     if (interaction_.valid())

@@ -193,7 +193,8 @@ Foam::mpm::materialPointCloud::materialPointCloud
     const settings& control,
     costMeter& cost,
     const vector& g,
-    const nodeBoundary::cornerType corners
+    const nodeBoundary::cornerType corners,
+    const bool soil
 )
 :
     cloud(mesh, name),
@@ -235,9 +236,14 @@ Foam::mpm::materialPointCloud::materialPointCloud
         dimensionedScalar(dimless, Zero),
         zeroGradientFvPatchScalarField::typeName
     ),
-    boundary_(grid, U_, corners),
+    open_
+    (
+        inflowOutflow::New(dict, grid, U_, g, soil, control.strictKeywords)
+    ),
+    boundary_(grid, U_, corners, inflowOutflow::zones(open_)),
     order_(grid),
     coupling_(nullptr),
+    extremeLeft_(false),
     globalWaveSpeed_(0),
     stepCount_(0),
     expectedPoints_(-1)
@@ -277,7 +283,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
 
 size_t Foam::mpm::materialPointCloud::pointMemory() const
 {
-    return size_t(points_.size()*points_.bytesPerPoint());
+    return size_t(points_.allocated()*points_.bytesPerPoint());
 }
 
 
@@ -327,7 +333,8 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     const lattice& cells = grid_.cells();
     const label nDim = grid_.nDim();
 
-    struct departure { label point; label rank; };
+    // Rank -1: out of the domain, through that patch
+    struct departure { label point; label rank; label patch; };
     std::vector<departure> departures;
     bool inactive = false;
 
@@ -360,13 +367,10 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         }
         if (!inBox)
         {
-            point from(Zero);
-            for (label d = 0; d < nDim; ++d) from[cells.axis(d)] = x(d)[p];
-
             FatalErrorInFunction
                 << "cloud " << name() << ": a point moved across more than "
                 << backgroundGrid::margin << " cells in one time step of "
-                << deltaT << " s, to " << from << '.' << nl
+                << deltaT << " s, to " << position(p) << '.' << nl
                 << "    The time step is too large or the flow unstable:"
                 << " lower maxCo (or deltaT if adjustTimeStep is no)."
                 << exit(FatalError);
@@ -377,9 +381,10 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 
         if (rank == backgroundGrid::missing)
         {
-            if (boundary_.beyondOpening(target))
+            const label patch = boundary_.beyondOpening(target);
+            if (patch >= 0)
             {
-                departures.push_back(departure{p, -1});
+                departures.push_back(departure{p, -1, patch});
             }
             else
             {
@@ -425,7 +430,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         }
         else
         {
-            departures.push_back(departure{p, rank});
+            departures.push_back(departure{p, rank, -1});
         }
     }
     movers_.clear();
@@ -446,15 +451,14 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     {
         if (d.rank < 0)
         {
-            ++counters_.left;
-            counters_.leftMass += mass()[d.point];
+            leave(d.point, open_.valid() ? open_->outletOfPatch(d.patch) : -1);
         }
         else
         {
             points_.pack(d.point, buffer.data());
             outgoing[d.rank].append(buffer);
+            points_.remove(d.point);
         }
-        points_.remove(d.point);
     }
 
     if (Pstream::parRun())
@@ -485,6 +489,15 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         }
     }
 
+    if (open_.valid())
+    {
+        leaveByRegion();
+        if (extremeLeft_) findExtremes();
+        enter(deltaT, inactive);
+    }
+    else if (extremeLeft_) findExtremes();
+    extremeLeft_ = false;
+
     ++stepCount_;
     const bool sort = stepCount_ % settings_.sortInterval == 0;
     if (sort || inactive) activate(sort);
@@ -493,9 +506,177 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 }
 
 
+Foam::point Foam::mpm::materialPointCloud::position(const label p) const
+{
+    point result(Zero);
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        result[grid_.cells().axis(d)] = x(d)[p];
+    }
+    return result;
+}
+
+
+bool Foam::mpm::materialPointCloud::extreme(const label p) const
+{
+    scalar sqr = 0;
+    for (label d = 0; d < grid_.nDim(); ++d) sqr += Foam::sqr(v(d)[p]);
+
+    // But for rounding
+    return sqr >= (1 - 1e-9)*sums_.maxSpeedSqr;
+}
+
+
+void Foam::mpm::materialPointCloud::leave(const label p, const label outlet)
+{
+    extremeLeft_ = extremeLeft_ || extreme(p);
+    counters_.left.add(mass()[p]);
+
+    if (open_.valid())
+    {
+        open_->leave(outlet, stepCount_, points_.column(id_)[p], mass()[p]);
+        if (!open_->recycle())
+        {
+            points_.park(p);
+            return;
+        }
+    }
+    points_.remove(p);
+}
+
+
+void Foam::mpm::materialPointCloud::leaveByRegion()
+{
+    if (!open_->anyRegion()) return;
+
+    const std::vector<char>& marks = open_->marks();
+
+    // The last point fills the gap: from the back to the front
+    for (label p = size() - 1; p >= 0; --p)
+    {
+        const label cell = points_.cell()[p];
+        if (!(marks[cell] & inflowOutflow::outletRegion)) continue;
+
+        const label outlet = open_->outletAt(position(p), grid_.meshCell(cell));
+        if (outlet >= 0) leave(p, outlet);
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::enter
+(
+    const scalar deltaT,
+    bool& inactive
+)
+{
+    PtrList<inlet>& inlets = open_->inlets();
+
+    for (inlet& in : inlets)
+    {
+        in.advance(deltaT);
+
+        while (in.due())
+        {
+            const scalar distance = in.takeLayer();
+            const scalarList ids
+            (
+                open_->takeIds(label(in.places().size()))
+            );
+            const nodeVector velocity = in.velocity();
+            const label first = size();
+
+            label n = 0;
+            for (const inlet::place& place : in.places()) n += place.own;
+            points_.resize(first + n);
+
+            scalarList volume(n), depth(n);
+            label p = first;
+            forAll(ids, k)
+            {
+                const inlet::place& place = in.places()[k];
+                if (!place.own) continue;
+
+                for (label d = 0; d < grid_.nDim(); ++d)
+                {
+                    points_.column(x_ + d)[p] =
+                        d == in.zone().direction()
+                      ? in.coordinate(place, distance)
+                      : place.x[d];
+                    points_.column(v_ + d)[p] = velocity[d];
+                }
+                points_.column(id_)[p] = ids[k];
+
+                const index3 i = boxCoordinate(p);
+                if (!grid_.ownCell(grid_.index(i)))
+                {
+                    FatalErrorInFunction
+                        << "cloud " << name() << ", inlet " << in.name()
+                        << ": a layer enters " << distance
+                        << " m behind its patch, beyond the first cell." << nl
+                        << "    Material moves further than a cell in a time"
+                        << " step of " << deltaT << " s: raise soundSpeed above"
+                        << " the inlet's speed." << exit(FatalError);
+                }
+                setCell(p, i);
+                inactive = inactive || !order_.active(points_.cell()[p]);
+                volume[p - first] = place.volume;
+                depth[p - first] = place.depth;
+                ++p;
+            }
+            setEntered(in, first, volume, depth);
+            for (p = first; p < size(); ++p) in.entered().add(mass()[p]);
+        }
+    }
+    if (inlets.size())
+    {
+        sums_.maxSpeedSqr =
+            max(sums_.maxSpeedSqr, sqr(open_->speed(time().value())));
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::startOpenBoundaries()
+{
+    const scalar now = time().value();
+    const scalar deltaT = time().deltaTValue();
+
+    for (inlet& in : open_->inlets())
+    {
+        if (in.slowness() == 0) in.setSlowness(slowness(in));
+    }
+    open_->setSpeeds(now - 0.5*deltaT, boundary_);
+}
+
+
+void Foam::mpm::materialPointCloud::openEffects
+(
+    List<FixedList<string, 3>>& table
+) const
+{
+    if (open_.valid()) open_->effects(table);
+    else
+    {
+        table.append
+        (
+            FixedList<string, 3>
+            ({"  open boundaries", "off", "no inflowOutflow"})
+        );
+    }
+}
+
+
+Foam::mpm::massAccount Foam::mpm::materialPointCloud::inside() const
+{
+    massAccount a;
+    for (label p = 0; p < size(); ++p) a.add(mass()[p]);
+    return a;
+}
+
+
 void Foam::mpm::materialPointCloud::findMaxSpeed()
 {
-    sums_.maxSpeedSqr = 0;
+    sums_.maxSpeedSqr =
+        open_.valid() ? sqr(open_->speed(time().value())) : 0;
     for (label p = 0; p < size(); ++p)
     {
         scalar sqr = 0;

@@ -318,6 +318,15 @@ void Foam::mpm::materialPointCloud::readPoints()
         }
         setCell(p, i);
     }
+    if (open_.valid() && !open_->started())
+    {
+        scalar maxId = -1;
+        for (label p = 0; p < n; ++p)
+        {
+            maxId = max(maxId, points_.column(id_)[p]);
+        }
+        open_->start(inside(), maxId);
+    }
     findMaxSpeed();
     activate(false);
 }
@@ -327,15 +336,13 @@ void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
 {
     stepCount_ = dict.lookupOrDefault<label>("stepCount", 0);
     expectedPoints_ = dict.get<label>("nPoints");
-    counters_.left = dict.lookupOrDefault<label>("left", 0);
-    counters_.leftMass = dict.lookupOrDefault<scalar>("leftMass", 0);
-    counters_.wallContacts = dict.lookupOrDefault<label>("wallContacts", 0);
+    counters_.left.read(dict, "left");
 
-    // Global sums; one rank carries them on
-    if (!Pstream::master())
-    {
-        counters_ = counters();
-    }
+    // A global sum; one rank carries it on
+    counters_.wallContacts =
+        Pstream::master() ? dict.lookupOrDefault<label>("wallContacts", 0) : 0;
+
+    if (open_.valid()) open_->read(dict);
 }
 
 
@@ -343,13 +350,13 @@ void Foam::mpm::materialPointCloud::writeState(dictionary& dict) const
 {
     dict.set("nPoints", globalSize());
     dict.set("stepCount", stepCount_);
-    dict.set("left", returnReduce(counters_.left, sumOp<label>()));
-    dict.set("leftMass", returnReduce(counters_.leftMass, sumOp<scalar>()));
+    counters_.left.write(dict, "left");
     dict.set
     (
         "wallContacts",
         returnReduce(counters_.wallContacts, sumOp<label>())
     );
+    if (open_.valid() && open_->started()) open_->write(dict);
 }
 
 

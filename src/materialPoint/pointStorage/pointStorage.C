@@ -10,9 +10,13 @@ License
 
 void Foam::mpm::pointStorage::setSize(const label n)
 {
-    for (auto& column : columns_) column.resize(n + nLanes);
-    cell_.resize(n, -1);
-    tile_.resize(n, -1);
+    if (n + parked_ > allocated_)
+    {
+        allocated_ = n + parked_;
+        for (auto& column : columns_) column.resize(allocated_ + nLanes);
+        cell_.resize(allocated_, -1);
+        tile_.resize(allocated_, -1);
+    }
     size_ = n;
 }
 
@@ -37,7 +41,7 @@ Foam::label Foam::mpm::pointStorage::add
     {
         // Three cache lines apart, and the page is full after 21 columns
         const size_t lead = 24*(columns_.size() + 1) % 512;
-        columns_.emplace_back(size_ + nLanes, lead);
+        columns_.emplace_back(allocated_ + nLanes, lead);
     }
     return first;
 }
@@ -45,16 +49,18 @@ Foam::label Foam::mpm::pointStorage::add
 
 void Foam::mpm::pointStorage::resize(const label n)
 {
-    // What lies in the padding is not zero
+    const label old = size_;
+    setSize(n);
+
+    // Padding, and places of points that were removed, are not zero
+    for (label p = old; p < n; ++p) cell_[p] = tile_[p] = -1;
     for (auto& column : columns_)
     {
-        if (n > size_)
+        if (n > old)
         {
-            column.resize(n + nLanes);
-            std::fill_n(column.data() + size_, n + nLanes - size_, scalar(0));
+            std::fill(column.data() + old, column.data() + n + nLanes, 0);
         }
     }
-    setSize(n);
 }
 
 
@@ -69,6 +75,7 @@ void Foam::mpm::pointStorage::append(const scalar* buffer, const label cell)
     setSize(size_ + 1);
     for (auto& column : columns_) column[size_ - 1] = *buffer++;
     cell_[size_ - 1] = cell;
+    tile_[size_ - 1] = -1;
 }
 
 
@@ -81,16 +88,23 @@ void Foam::mpm::pointStorage::remove(const label point)
 }
 
 
+void Foam::mpm::pointStorage::park(const label point)
+{
+    remove(point);
+    ++parked_;
+}
+
+
 void Foam::mpm::pointStorage::reorder(const labelUList& order)
 {
-    scratch_.resize(size_ + nLanes);
+    scratch_.resize(allocated_ + nLanes);
     for (auto& column : columns_)
     {
         for (label i = 0; i < size_; ++i) scratch_[i] = column[order[i]];
         std::swap(column, scratch_);
     }
 
-    labelScratch_.resize(size_);
+    labelScratch_.resize(allocated_);
     for (auto* labels : {&cell_, &tile_})
     {
         for (label i = 0; i < size_; ++i) labelScratch_[i] = (*labels)[order[i]];

@@ -91,6 +91,25 @@ void Foam::mpm::soilCloud::derivedFields
 }
 
 
+void Foam::mpm::soilCloud::setEntered
+(
+    const inlet& in,
+    const label first,
+    const UList<scalar>& volume,
+    const UList<scalar>&
+)
+{
+    const label n = volume.size();
+    const scalar e = in.voidRatio() < 0 ? model_->e0() : in.voidRatio();
+    setState
+    (
+        first, volume, scalarField(n, e), symmTensorField(n, Zero)
+    );
+    waveSpeedSqr_ = max(waveSpeedSqr_, model_->waveSpeedSqr(0, e));
+    minVoidRatio_ = min(minVoidRatio_, e);
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::soilCloud::soilCloud
@@ -106,7 +125,8 @@ Foam::mpm::soilCloud::soilCloud
 :
     materialPointCloud
     (
-        name, mesh, grid, dict, control, cost, g, nodeBoundary::stickCorners
+        name, mesh, grid, dict, control, cost, g, nodeBoundary::stickCorners,
+        true
     ),
     model_(soilModel::New(dict, control.strictKeywords)),
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
@@ -174,7 +194,8 @@ void Foam::mpm::soilCloud::checkDictionary
             model + "Coeffs",
             "transfer",
             "apicRate",
-            "flipDampingRate"
+            "flipDampingRate",
+            "inflowOutflow"
         },
         strictKeywords
     );
@@ -422,6 +443,7 @@ void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
         "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,
         "fvSolution/MPM/maxSoilSoundSpeed"
     );
+    openEffects(table);
 }
 
 // ************************************************************************* //

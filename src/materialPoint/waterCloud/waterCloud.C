@@ -60,7 +60,211 @@ void Foam::mpm::waterCloud::findMinVolumeRatio()
 }
 
 
+Foam::scalar Foam::mpm::waterCloud::volumeRatioAhead
+(
+    const inlet& in,
+    const label p
+) const
+{
+    // Without smoothing the nodes do not know it
+    if (!settings_.smoothing) return 0;
+
+    const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
+    const label cell = points_.cell()[p];
+    const index3 lower = grid_.coordinate(cell);
+
+    // The last line that this rank is sure to know, ahead of the points
+    // that entered before: from those the pressure would only be
+    // extrapolated, with nothing to hold it
+    const label normal = in.zone().direction();
+    const label line =
+        in.zone().side()
+      ? grid_.reachStart()
+      : grid_.reachStart() + grid_.reachWidth() - 1;
+
+    scalar sum = 0, weights = 0;
+    for (label corner = 0; corner < (1 << nDim); ++corner)
+    {
+        label node = cell;
+        scalar weight = 1;
+        for (label d = 0; d < nDim; ++d)
+        {
+            const label upper = (corner >> d) & 1;
+            if (d == normal)
+            {
+                weight *= upper;
+                node += line*grid_.stride(d);
+                continue;
+            }
+            const scalar f = (x(d)[p] - cells.origin(d))/cells.spacing(d)
+              - (lower[d] + grid_.lower(d));
+            weight *= upper ? f : 1 - f;
+            node += upper*grid_.stride(d);
+        }
+        const scalar ratio = nodes_.velocity[node][nDim];
+        if (nodes_.momentum[node][nDim] > 0 && ratio > 0)
+        {
+            sum += weight*ratio;
+            weights += weight;
+        }
+    }
+
+    // A mean of some corners only is not linear any more
+    return weights > 1 - 1e-6 ? sum/weights : 0;
+}
+
+
+void Foam::mpm::waterCloud::addOutletLoads()
+{
+    if (!open_.valid() || !open_->anyWaterLevel()) return;
+
+    const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
+    const label T = grid_.reachWidth();
+
+    label vertical = 0;
+    for (label d = 1; d < nDim; ++d)
+    {
+        if (mag(g_[cells.axis(d)]) > mag(g_[cells.axis(vertical)]))
+        {
+            vertical = d;
+        }
+    }
+    const scalar g = g_[cells.axis(vertical)];
+    auto pressure = [&](const scalar level, const scalar z) -> scalar
+    {
+        // Heights count against gravity
+        const scalar depth = level - (g > 0 ? -z : z);
+        return depth > 0 ? fluid_.hydrostaticPressure(mag(g)*depth) : 0;
+    };
+    if (open_->loads().empty())
+    {
+        open_->setLoads(boundary_, vertical, pressure);
+    }
+
+    // Integral over the end of the water = integral over the plane where the
+    // zone begins + volume integral of p grad N from there on: points that
+    // leave take their part along
+    for (const auto& load : open_->loads())
+    {
+        const label i = load.first;
+        const scalar volume =
+            nDim == 2 ? nodes_.momentum[i][nDim + 1] : nodes_.volume[i];
+        const scalar part =
+            min(scalar(1), volume*boundary_.inverseVolume()[i]);
+        nodes_.force[i] += part*load.second;
+    }
+
+    const std::vector<char>& marks = open_->marks();
+    for (label p = 0; p < size(); ++p)
+    {
+        const label cell = points_.cell()[p];
+        if (!(marks[cell] & inflowOutflow::levelZone)) continue;
+
+        const label normal = open_->directionOf(cell);
+        const index3 lower = grid_.coordinate(cell);
+        scalar w[3][4] = {};
+        for (label d = 0; d < nDim; ++d)
+        {
+            const scalar f = (x(d)[p] - cells.origin(d))/cells.spacing(d)
+              - (lower[d] + grid_.lower(d));
+            scalar gradient[4];
+            inflowOutflow::reachWeights(grid_, f, w[d], gradient);
+            for (label t = 0; d == normal && t < T; ++t)
+            {
+                w[d][t] = gradient[t]/cells.spacing(d);
+            }
+        }
+        const scalar pV =
+            pressure(open_->levelOf(cell), x(vertical)[p])*volume(p);
+        const label stencil = boundary_.stencil(cell);
+
+        for (label t = 0; t < grid_.reachSize(); ++t)
+        {
+            scalar weight = w[0][t % T]*w[1][(t/T) % T];
+            if (nDim == 3) weight *= w[2][t/(T*T)];
+            nodeVector f{};
+            f[normal] = -pV*weight;
+            if (stencil < 0)
+            {
+                nodes_.force
+                    [cell + grid_.reachOffset() + grid_.reachNode(t)] += f;
+            }
+            else
+            {
+                nodes_.force[boundary_.targets(stencil)[t]] +=
+                    boundary_.signs(stencil)[t]*f;
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::mpm::waterCloud::slowness(const inlet& in) const
+{
+    scalar mass = 0;
+    for (const inlet::place& place : in.places())
+    {
+        mass += place.volume/fluid_.volumeRatio
+        (
+            fluid_.hydrostaticPressure(in.gravity()*place.depth)
+        );
+    }
+    return in.layerVolume()/mass;
+}
+
+
+void Foam::mpm::waterCloud::setEntered
+(
+    const inlet& in,
+    const label first,
+    const UList<scalar>& volume,
+    const UList<scalar>& depth
+)
+{
+    scalarField pressure(depth.size());
+    forAll(pressure, i)
+    {
+        pressure[i] = fluid_.hydrostaticPressure(in.gravity()*depth[i]);
+    }
+    setState(first, volume, pressure);
+
+    // Density falls with height
+    const scalar g = mag(g_);
+    forAll(pressure, i)
+    {
+        const label p = first + i;
+        const scalar ratio = volumeRatioAhead(in, p);
+        if (ratio > 0) points_.column(J_)[p] = ratio;
+        minJ_ = min(minJ_, J()[p]);
+
+        for (label d = 0; gradJ_ >= 0 && d < grid_.nDim(); ++d)
+        {
+            points_.column(gradJ_ + d)[p] =
+                g > 0 && in.gravity() > 0
+              ? -J()[p]*g_[grid_.cells().axis(d)]
+               /sqr(fluid_.soundSpeed(J()[p]))
+              : 0;
+        }
+    }
+}
+
+
+bool Foam::mpm::waterCloud::extreme(const label p) const
+{
+    return materialPointCloud::extreme(p) || J()[p] <= minJ_;
+}
+
+
+void Foam::mpm::waterCloud::findExtremes()
+{
+    materialPointCloud::findExtremes();
+    findMinVolumeRatio();
+}
+
 
 void Foam::mpm::waterCloud::derivedFields
 (
@@ -94,7 +298,8 @@ Foam::mpm::waterCloud::waterCloud
 :
     materialPointCloud
     (
-        name, mesh, grid, dict, control, cost, g, nodeBoundary::slipCorners
+        name, mesh, grid, dict, control, cost, g, nodeBoundary::slipCorners,
+        false
     ),
     fluid_(dict, control.strictKeywords),
     J_(points_.add("J", pointStorage::scalarValue)),
@@ -145,24 +350,32 @@ void Foam::mpm::waterCloud::checkDictionary
             "transfer",
             "apicRate",
             "flipDampingRate",
-            "tensionCutOff"
+            "tensionCutOff",
+            "inflowOutflow"
         },
         strictKeywords
     );
 }
 
 
-void Foam::mpm::waterCloud::findSoundSpeed
-(
-    const scalar surface,
-    const scalar speed
-)
+void Foam::mpm::waterCloud::findSoundSpeed(const scalar surface)
 {
     if (!fluid_.autoSoundSpeed()) return;
 
     // Heights are measured against gravity, from the lowest floor
     const scalar g = mag(g_);
     const vector up = (g > 0 ? -g_/g : vector(Zero));
+
+    scalar inletSpeed = 0, inletBottom = GREAT, highest = surface;
+    if (open_.valid() && open_->inlets().size())
+    {
+        inletSpeed = open_->maxSpeed
+        (
+            time().startTime().value(), time().endTime().value()
+        );
+        inletBottom = open_->bottom(up);
+        highest = max(highest, open_->top(up));
+    }
 
     scalar floor = GREAT;
     for (const point& x : mesh_.points()) floor = min(floor, up & x);
@@ -184,12 +397,16 @@ void Foam::mpm::waterCloud::findSoundSpeed
     reduce(fastest, maxOp<scalar>());
 
     // Half a cell: points stand off the floor
-    const scalar drop =
-        max(scalar(0), lowest - floor - grid_.cells().minSpacing());
-    const scalar depth = max(scalar(0), surface - floor);
+    scalar drop = 0;
+    if (lowest < GREAT)
+    {
+        drop = max(drop, lowest - floor - grid_.cells().minSpacing());
+    }
+    if (inletBottom < GREAT) drop = max(drop, inletBottom - floor);
+    const scalar depth = max(scalar(0), highest - floor);
     const scalar reference = max
     (
-        max(speed, fastest),
+        max(inletSpeed, fastest),
         max(std::sqrt(2*g*drop), std::sqrt(g*depth))
     );
 
@@ -207,7 +424,7 @@ void Foam::mpm::waterCloud::findSoundSpeed
     select();
 
     Info<< "Speed of sound of " << name() << ": " << fluid_.soundSpeed()
-        << " m/s = 10 max(inlet " << speed << ", initial " << fastest
+        << " m/s = 10 max(inlet " << inletSpeed << ", initial " << fastest
         << ", sqrt(2 g drop) " << std::sqrt(2*g*drop)
         << ", sqrt(g H) " << std::sqrt(g*depth) << ')' << endl;
 }
@@ -238,7 +455,8 @@ void Foam::mpm::waterCloud::finishPoints()
 
 Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
 {
-    return fluid_.soundSpeed(minJ_);
+    // Water may come in before there is any
+    return fluid_.soundSpeed(open_.valid() ? min(minJ_, scalar(1)) : minJ_);
 }
 
 
@@ -332,6 +550,7 @@ void Foam::mpm::waterCloud::effects(List<FixedList<string, 3>>& table) const
         "fvSolution/MPM/volumeCorrection"
     );
     add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
+    openEffects(table);
 }
 
 

@@ -94,6 +94,38 @@ class waterKernelsFor
                 velocity[i][dim] = inside ? S[i] - 1 : max(0.0, S[i] - 1.1);
             }
         );
+
+        // The gap behind the last layer of an inlet is no error
+        c.boundary_.forInflowNodes
+        (
+            [&](const label i) { velocity[i][dim] = 0; }
+        );
+    }
+
+    //- Keep the volume ratio of points in zones of open inlets, and give it
+    //  back
+    void hold()
+    {
+        waterCloud& c = cloud_;
+        c.held_.clear();
+        if (!c.open_.valid() || !c.open_->anyOpen()) return;
+
+        const std::vector<char>& marks = c.open_->marks();
+        const label* cell = c.points_.cell();
+        const scalar* J = c.J();
+        for (label p = 0; p < c.size(); ++p)
+        {
+            if (marks[cell[p]] & inflowOutflow::openInlet)
+            {
+                c.held_.emplace_back(p, J[p]);
+            }
+        }
+    }
+
+    void release()
+    {
+        scalar* J = cloud_.points_.column(cloud_.J_);
+        for (const auto& point : cloud_.held_) J[point.first] = point.second;
     }
 
     //- Smoothed volume ratio of a node; ghost nodes have their own
@@ -149,10 +181,13 @@ public:
         c.cost_.start("water: stress and forces");
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         material m(makeMaterial(deltaT));
+        hold();
         kernels_.updateStress
         (
             c.view<dim>(), m, keep, c.nodes_, c.coupling_
         );
+        release();
+        c.addOutletLoads();
         c.stressWork_ += deltaT*sumLanes(m.stressWork);
         c.correctionWork_ += sumLanes(m.correctionWork);
 
