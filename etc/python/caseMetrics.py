@@ -5,8 +5,9 @@
         [--case <dir>] [--front 0.05 0.10] [--energy 0.3]
 
 What there is decides what comes out: the log, the points of each cloud, and
-the function objects materialPointEnergy, frontPosition, waveGauge and
-scourProfile under the names energy, front, gauge and scour.
+the function objects materialPointEnergy, frontPosition, waveGauge,
+scourProfile and massBalance under the names energy, front, gauge, scour and
+balance.
 """
 
 import argparse
@@ -17,7 +18,7 @@ import numpy as np
 from mpmfoam import metrics
 from mpmfoam.case import Case
 from mpmfoam.runLog import readLog
-from mpmfoam.postProcessing import readDat
+from mpmfoam.postProcessing import readColumns, readDat
 
 # Columns of energy.dat behind the time
 KINETIC, POTENTIAL, ELASTIC, STRESS_WORK, CORRECTION_WORK, TOTAL = range(1, 7)
@@ -41,7 +42,7 @@ def fromPoints(case):
     over what was there at the start, the worst of the clouds."""
     times = case.times()
     out = {}
-    clouds = [c for c in ["water", "soil"] if case.hasCloud(times[0], c)]
+    clouds = [c for c in ["water", "soil"] if case.hasCloud(times[-1], c)]
     if not clouds:
         raise FileNotFoundError("no points")
     for cloud in clouds:
@@ -50,6 +51,8 @@ def fromPoints(case):
         for time in (with_[0], with_[-1]):
             inside.append(case.cloudField(time, cloud, "mass"))
             left.append(case.cloudState(time, cloud)["leftMass"])
+        # A cloud that is empty at first has files at later times only: of
+        # what came in by inlets massBalance knows
         start = inside[0].sum() + left[0]
         figures = {"pointCount": len(inside[1]),
                    "pointsLeft": int(case.cloudState(with_[-1], cloud)["left"]),
@@ -94,6 +97,29 @@ def fromGauge(case):
     return {"meanLevelChange": level[-1]/level[0] - 1}
 
 
+def fromBalance(case):
+    """What came in and went out. massError: imbalance over what there was at
+    the start and came in; zero, not small"""
+    b = readColumns(case.path, "balance", "massBalance.dat")
+    if "entered" not in b:
+        return {}
+    out = {key: b[key][-1] for key in [
+        "entered", "left", "elsewhere", "waiting", "allocated"]}
+    out["enteredMass"] = b["enteredMass"][-1]
+    out["leftMass"] = b["leftMass"][-1]
+    out["massError"] = np.abs(b["imbalanceMass"]).max()/(
+        b["insideMass"][0] + b["enteredMass"][-1])
+    # Over the last fifth
+    k = np.searchsorted(b["Time"], 0.8*b["Time"][-1])
+    came = b["enteredMass"][-1] - b["enteredMass"][k]
+    if came > 0:
+        out["outflowOverInflow"] = (
+            b["leftMass"][-1] - b["leftMass"][k])/came
+    if b["left"][-1]:
+        out["timeOfFirstOutflow"] = b["Time"][np.flatnonzero(b["left"])[0]]
+    return out
+
+
 def fromScour(case):
     """The deepest hole and when it was, shape at the end; the largest part of
     the grains that was ever in suspension"""
@@ -126,6 +152,7 @@ def main():
                  lambda: fromEnergy(case, arguments.energy),
                  lambda: fromFront(case, arguments.front),
                  lambda: fromGauge(case),
+                 lambda: fromBalance(case),
                  lambda: fromScour(case)):
         try:
             out.update(part())

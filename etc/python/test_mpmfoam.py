@@ -123,6 +123,10 @@ def testDatOfRestart(tmp_path):
     second.write_text("# time x\n0.2 (5 6)\n")
     rows = postProcessing.readDat(tmp_path, "front", "front.dat")
     assert rows.tolist() == [[0, 1, 2], [0.1, 3, 4], [0.2, 5, 6]]
+    second.write_text("# time x y\n0.2 5 6\n")
+    columns = postProcessing.readColumns(tmp_path, "front", "front.dat")
+    assert list(columns) == ["time", "x", "y"]
+    assert columns["y"].tolist() == [2, 4, 6]
 
 
 def testLog(tmp_path):

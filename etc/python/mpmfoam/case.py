@@ -61,10 +61,14 @@ class Case:
             path = root/time/"uniform"/"materialPoints"
             if path.is_file():
                 break
-        found = re.search(rf"^{cloud}\s*\{{(.*?)\}}", path.read_text(),
+        found = re.search(rf"^{cloud}\s*\{{(.*?)^\}}", path.read_text(),
                           re.DOTALL | re.MULTILINE)
+        # Without the dictionaries in it
+        text, nested = found[1], 1
+        while nested:
+            text, nested = re.subn(r"\w+\s*\{[^{}]*\}", "", text)
         return {key: float(value) for key, value in re.findall(
-            r"(\w+)\s+([-+0-9.e]+);", found[1])}
+            r"(\w+)\s+([-+0-9.e]+);", text)}
 
     def field(self, time, name):
         """The internal field of a vol<Type>Field, e.g. alpha.water"""

@@ -28,6 +28,17 @@ def readDat(casePath, functionObject, fileName):
     return rows
 
 
+def readColumns(casePath, functionObject, fileName):
+    """The same as columns by the names in the head of the last file"""
+    root = Path(casePath)/"postProcessing"/functionObject
+    rows = readDat(casePath, functionObject, fileName)
+    last = max((p for p in root.glob("*") if (p/fileName).is_file()),
+               key=lambda p: float(p.name))
+    with open(last/fileName) as file:
+        head = [line for line in file if line.startswith("#")][-1]
+    return dict(zip(head.strip("# \n").split(), rows.T))
+
+
 def _table(path):
     with open(path) as file:
         lines = [line.replace("(", " ").replace(")", " ").split()
