@@ -57,7 +57,9 @@ def fromPoints(case):
         figures = {"pointCount": len(inside[1]),
                    "pointsLeft": int(case.cloudState(with_[-1], cloud)["left"]),
                    "mass": inside[1].sum(),
-                   "massError": (inside[1].sum() + left[1])/start - 1}
+                   "massError": (inside[1].sum() + left[1])/start - 1,
+                   "speedRms": np.sqrt((case.cloudField(
+                       with_[-1], cloud, "U")**2).sum(axis=1).mean())}
         out.update({name + (f"_{cloud}" if len(clouds) > 1 else ""): value
                     for name, value in figures.items()})
     if len(clouds) > 1:

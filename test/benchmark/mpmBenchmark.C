@@ -203,8 +203,10 @@ void measure
     results& out
 )
 {
-    mpm::waterCloud& water = points.water("mpmBenchmark");
-    const scalar n = water.globalSize();
+    scalar n = 0;
+    for (const auto& cloud : points.clouds()) n += cloud.globalSize();
+    const mpm::waterCloud* water =
+        withPlain ? &points.water("mpmBenchmark -plain") : nullptr;
 
     stepCost none;
     for (label i = 0; i < warmUp; ++i) step(points, runTime, none);
@@ -216,9 +218,9 @@ void measure
     autoPtr<mpm::plainKernel<dim>> plain;
     if (withPlain)
     {
-        plain.reset(new mpm::plainKernel<dim>(makePlain<dim>(water, points.g())));
+        plain.reset(new mpm::plainKernel<dim>(makePlain<dim>(*water, points.g())));
         plain->step(runTime.deltaTValue());
-        *plain = makePlain<dim>(water, points.g());
+        *plain = makePlain<dim>(*water, points.g());
     }
 
     points.cost().reset();
@@ -260,8 +262,14 @@ void measure
     const double best =
         perPointStep*nTurns*total(*std::min_element(turns.begin(), turns.end()));
     const double nsWall = perPointStep*returnReduce(wallTime, maxOp<scalar>());
-    const double pointBytes = total(water.pointMemory())/n;
-    const double nodeBytes = total(water.nodeMemory())/n;
+    double pointMemory = 0, nodeMemory = 0;
+    for (const auto& cloud : points.clouds())
+    {
+        pointMemory += cloud.pointMemory();
+        nodeMemory += cloud.nodeMemory();
+    }
+    const double pointBytes = total(pointMemory)/n;
+    const double nodeBytes = total(nodeMemory)/n;
 
     if (Pstream::master())
     {
@@ -321,7 +329,7 @@ void measure
 
         // Both moved the same water: to the same place, nearly
         double a[dim], b[dim], distance = 0;
-        centre(water, dim, a);
+        centre(*water, dim, a);
         plain->centre(b);
         for (int c = 0; c < dim; ++c)
         {
