@@ -1,8 +1,10 @@
-"""Soil alone: a column that fails, flows and comes to rest; a block on a wall
-with friction."""
+"""Soil alone: a column that fails, flows and comes to rest; beds and slopes that
+stay; flow down an incline; a block on a wall with friction."""
 
 import numpy as np
 import pytest
+
+from mpmfoam import bagnold
 
 from caseBuilder import G, Setup, box
 from test_wallJet import CloudPoints, body
@@ -12,6 +14,8 @@ SAND = {  # soil C of the paper's Table 2
     "phiC": 30, "eRef": 0.827, "lambda": 0.0596, "xi": 0.365, "Ad": 0.7,
     "kp": 0.0044, "np": 2.4, "nd": 2.9, "I0": 0.28, "muS": 0.577,
     "muD": 0.660, "PhiC": 0.70, "dPhi": 0.29}
+# What soil B has instead: dense
+SAND_B = {**SAND, "d": 1e-3, "e0": 0.695, "eRef": 0.977}
 L0 = 0.1
 
 
@@ -218,3 +222,143 @@ def testInitialStress(tmp_path, figures):
     figures.atMost("geostatic: K0 of the layers, difference", np.abs(
         sigma[:, 0]/sigma[:, 3] - np.where(base, 0.5, 0.4))[~block].max(),
         1e-12)
+
+
+def testBedStays(tmp_path, figures):
+    """1e5 steps with jittered points: the stress of the start, and no drift"""
+    h, cells = 0.01, 12
+    case = Setup(
+        cells=(6, cells + 3), h=h, regions={}, energy=False, soilWall="slip",
+        placement={"placement": "jittered"},
+        soil={"constitutiveModel": "elastoplasticMuI",
+              "elastoplasticMuICoeffs": SAND},
+        soilRegions={"bed": box((0, 0), (6*h, cells*h), stress="geostatic")},
+    ).until(7.6, 3.8).write(tmp_path/"case").prepare()
+    case.solve()
+    figures.atLeast("steps", case.log.stepCount, 100000)
+    _, middle, end = (CloudPoints(case, "soil", t) for t in case.times)
+
+    weight = 2650/(1 + SAND["e0"])*G
+    worst, noise = 0, 0
+    for points in (middle, end):
+        y, sigma = points.x[:, 1], points["sigma"][:, 3]
+        depth = cells*h - y
+        layer = (depth/h).astype(int)
+        for k in range(2, cells):
+            here = layer == k
+            mean = sigma[here].sum()/(-weight*depth[here]).sum()
+            worst = max(worst, abs(mean - 1))
+        deep = depth > 2*h
+        noise = max(noise, (sigma + weight*depth)[deep].std()/(
+            weight*cells*h))
+        figures.atMost("points without contact, share",
+                       (points["regime"] == 3).mean(), 0.02)
+        figures.atMost("largest solid fraction",
+                       (1/(1 + points["voidRatio"])).max(), 0.70)
+        figures.atMost("rms speed, m/s",
+                       np.sqrt((points.U**2).sum(axis=1).mean()), 1e-4)
+    figures.atMost("vertical stress of a layer, two cells down: error", worst,
+                   0.03)
+    figures.atMost("noise of points over the stress at the floor", noise, 0.1)
+    figures.atMost("points move in the second half, rms over h",
+                   np.sqrt(((end.x - middle.x)**2).sum(axis=1).mean())/h, 1e-3)
+    figures.atMost("change of the mean height over h", abs(
+        end.x[:, 1].mean() - middle.x[:, 1].mean())/h, 1e-3)
+
+
+def testMomentumIsExact(tmp_path, figures):
+    """Blocks of sand collide in a box that is cyclic on all sides"""
+    case = Setup(
+        cells=(20, 20), h=0.01, g=(0, 0, 0), regions={}, energy=False,
+        soilRegions={
+            "left": box((0.03, 0.05), (0.09, 0.12), velocity=(1, 0.2, 0)),
+            "right": box((0.10, 0.07), (0.16, 0.14), velocity=(-0.5, 0.1, 0)),
+        },
+        soil={"constitutiveModel": "elastoplasticMuI",
+              "elastoplasticMuICoeffs": SAND},
+        functions=energyOfSoil(20),
+    ).cyclic("x", "y").steps(2000).write(tmp_path/"case").prepare()
+    start = CloudPoints(case, "soil", "0")
+    case.solve()
+    end = last(case)
+    figures.equal("masses that differ",
+                  int((np.sort(end.mass) != np.sort(start.mass)).sum()), 0)
+
+    def momentum(points):
+        return (points.mass[:, None]*points.U).sum(axis=0)
+
+    size = (start.mass[:, None]*np.abs(start.U)).sum()
+    kinetic = [(p.mass*(p.U**2).sum(axis=1)).sum() for p in (start, end)]
+    figures.atMost("kinetic energy left, of the start", kinetic[1]/kinetic[0],
+                   0.7)
+    figures.atMost("momentum: change over sum of m |U|",
+                   np.abs(momentum(end) - momentum(start)).max()/size, 1e-12)
+    total = case.energies()["total"]
+    climb = (total - np.minimum.accumulate(total)).max()
+    figures.atMost("largest growth of the energy over its initial value",
+                   climb/total[0], 1e-3)
+
+
+@pytest.mark.parametrize("angle, soil, stands", [
+    (25, SAND, True), (25, SAND_B, True), (35, SAND_B, True),
+    (35, SAND, False)], ids=["C25", "B25", "B35", "C35"])
+def testSlope(tmp_path, figures, angle, soil, stands):
+    """A bank 12 cells high on a rough floor, 1 s; friction angle at constant
+    volume 30 degrees"""
+    height, crest = 0.08, 0.05
+    h = height/12
+    toe = crest + height/np.tan(np.radians(angle))
+    case = Setup(
+        cells=(48, 14), h=h, regions={}, energy=False,
+        sides={"xmin": ("wall", "slip")},
+        soil={"constitutiveModel": "elastoplasticMuI",
+              "elastoplasticMuICoeffs": soil},
+        soilRegions={"bank": {
+            "type": "polygon", "stress": "geostatic",
+            "points": [(0, 0), (toe, 0), (crest, height), (0, height)]}},
+    ).until(1, 0.5).write(tmp_path/"case").prepare()
+    case.solve()
+    start, half, end = (CloudPoints(case, "soil", t) for t in case.times)
+
+    def front(points):
+        return np.sort(points.x[:, 0])[int(0.995*len(points.x))]
+
+    moved = (front(end) - front(start))/h
+    figures.equal("values that are not finite",
+                  int((~np.isfinite(end.x)).sum()), 0)
+    if stands:
+        figures.atMost("front moved, cells", moved, 0.5)
+        figures.atMost("rms of the way from 0.5 to 1 s, over the time, m/s",
+                       np.sqrt(((end.x - half.x)**2).sum(axis=1).mean())/0.5,
+                       1e-4)
+        # Of their own velocity, most is what the grid does not see and does
+        # not move them
+        figures.atMost("rms speed at the end, m/s", np.sqrt(
+            (end.U**2).sum(axis=1).mean()), 1e-4)
+    else:
+        figures.atLeast("front moved, cells", moved, 2)
+
+
+def testFlowDownIncline(tmp_path, figures):
+    """Bagnold's profile, 12 cells"""
+    flow = bagnold.row(26)
+    H, n = flow["H"], 12
+    h, tilt = H/n, np.radians(26)
+    case = Setup(
+        cells=(5, n + 3), h=h, regions={}, energy=False,
+        g=(G*np.sin(tilt), -G*np.cos(tilt), 0),
+        sides={"ymin": ("wall", "noSlip"), "ymax": ("patch", "zeroGradient")},
+        soil={"constitutiveModel": "muI", "muICoeffs": {
+            "rhoS": 2650, "d": flow["d"], "e0": 1/flow["phi"] - 1, "E": 5e4,
+            "nu": 0.2, "muS": flow["mus"], "muD": flow["mud"],
+            "I0": flow["I0"]}},
+        soilRegions={"layer": box(
+            (-1, 0), (1, H), stress="geostatic", velocityGradient=(
+                0, 2*flow["u_mean"]/H, 0, 0, 0, 0, 0, 0, 0))},
+    ).cyclic("x").until(4, 0.5).write(tmp_path/"case").prepare()
+    case.solve()
+    profiles = [bagnold.compare(case.case, t, flow, h) for t in case.times
+                if float(t) > 2]
+    u, exact = (np.mean([p[k] for p in profiles], axis=0) for k in (1, 2))
+    figures.atMost("largest error over the velocity of the surface",
+                   np.abs(u - exact).max()/flow["u_surface"], 0.05)

@@ -53,19 +53,20 @@ def evaluate(done, results):
         profiles, errors = [], []
         for time in [t for t in case.times() if float(t) > MEAN_FROM]:
             y, u, exact, error = bagnold.compare(case, time, flow, h)
-            profiles.append((y[:n - 1], u[:n - 1]))
+            profiles.append((y, u, exact))
             x, regime = (case.cloudField(time, "soil", f)
                          for f in ["x", "regime"])
             errors.append({**error, "swelling": 2*x[:, 1].mean()/HEIGHT - 1,
                            "separated": (regime == 3).mean()})
         mean = {key: np.mean([e[key] for e in errors]) for key in errors[0]}
+        y, u, exact = np.mean(profiles, axis=0)
+        mean["profileError"] = np.abs(u - exact).max()/flow["u_surface"]
         for key in table:
             value = {"angle": angle, "cells": n,
                      "wallTime": run.log.wallTime, **mean}[key]
             table[key].append(value)
             if key not in ("angle", "cells"):
                 out[f"{key}_{name}"] = value
-        y, u = np.mean(profiles, axis=0)
         axis = panels[ANGLES.index(angle)]
         axis.plot(u, 1e3*y, "os"[GRIDS.index(n)], label=f"H/{n}")
         axis.set_title(f"{angle} degrees")
@@ -80,8 +81,8 @@ def evaluate(done, results):
     out.update(study.provenance(done))
     reference.writeCsv(
         results/"bagnoldFlow.csv", table,
-        f"means of {MEAN_FROM} to {END} s; profileError: largest error of a "
-        "layer over the surface velocity")
+        f"means of {MEAN_FROM} to {END} s; profileError: of the mean "
+        "profile, the largest, over the surface velocity")
     metrics.writeMetrics(results/"metrics.json", out)
     metrics.printTable(out, "asked: profileError <= 0.05")
 

@@ -29,18 +29,18 @@ def velocity(y, flow):
 
 
 def compare(case, time, flow, h, cloud="soil"):
-    """Mean velocity of layers of height h beside the closed form: heights,
-    velocities, their exact values; and the errors over the surface velocity
-    (profileError, the largest) and over their own value (surfaceError,
-    meanError)"""
+    """Mean velocity of layers of height h, up to H, beside the closed form:
+    heights, velocities, their exact values; and the errors over the surface
+    velocity (profileError, the largest) and over their own value
+    (surfaceError, of the last layer, and meanError, of all grains)"""
     x, U, mass = (case.cloudField(time, cloud, f) for f in ["x", "U", "mass"])
     exact = velocity(x[:, 1], flow)
+    n = round(flow["H"]/h)
     layer = (x[:, 1]/h).astype(int)
-    weight = np.bincount(layer, weights=mass)
-    filled = weight > 0
+    weight = np.bincount(layer, weights=mass, minlength=n)[:n]
 
     def mean(values):
-        return np.bincount(layer, weights=mass*values)[filled]/weight[filled]
+        return np.bincount(layer, weights=mass*values, minlength=n)[:n]/weight
 
     y, u, uExact = mean(x[:, 1]), mean(U[:, 0]), mean(exact)
     return y, u, uExact, {
