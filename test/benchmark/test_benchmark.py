@@ -33,3 +33,16 @@ def testPlainKernelMovesTheSameWater(tmp_path):
     figures = json.loads((tmp_path / "benchmark.json").read_text())
     for run in figures["configurations"].values():
         assert run["plainCentreDistance"] < 0.01     # cells
+
+
+def testMeasuresSoil(tmp_path):
+    result = subprocess.run(
+        [RUN, "--quick", "--no-ranks", "--json", tmp_path / "benchmark.json", "soilRest", "soilFlow"],
+        capture_output=True, text=True, timeout=600,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+
+    figures = json.loads((tmp_path / "benchmark.json").read_text())
+    rest, flow = (figures["configurations"][n] for n in ["soilRest", "soilFlow"])
+    assert rest["points"] > 4000 and flow["points"] > 1000
+    assert 0 < rest["ns"] and 0 < flow["ns"]

@@ -4,8 +4,8 @@ height of the deposit and time against the scalings of Lube et al. and of
 Lajeunesse et al., on two grids.
 
 The deposit ends where it is thinner than one grain; grains that jumped ahead are
-no deposit. Beside it, where 99.5 % of the grains lie behind: that leaves out a
-wedge, at a = 1 of 1.5 cm."""
+no deposit. Beside it, where 99.5 % of the grains lie behind, which leaves out
+the tip."""
 
 import sys
 from pathlib import Path
