@@ -637,14 +637,12 @@ void Foam::mpm::materialPointCloud::enter
 
 void Foam::mpm::materialPointCloud::startOpenBoundaries()
 {
-    const scalar now = time().value();
-    const scalar deltaT = time().deltaTValue();
-
     for (inlet& in : open_->inlets())
     {
         if (in.slowness() == 0) in.setSlowness(slowness(in));
     }
-    open_->setSpeeds(now - 0.5*deltaT, boundary_);
+    // Of the start of the step: its length is not known yet
+    open_->setSpeeds(time().value(), boundary_);
 }
 
 
