@@ -53,8 +53,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         control_,
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
-            "volumeCorrection", "maxSoilSoundSpeed", "logInterval",
-            "strictKeywords"
+            "volumeCorrection", "maxSoilSoundSpeed", "pressureForm",
+            "logInterval", "strictKeywords"
         },
         settings_.strictKeywords
     );
@@ -189,7 +189,16 @@ void Foam::mpm::materialPointSystem::makeClouds()
         (
             new waterSoilInteraction
             (
-                properties_, settings_.strictKeywords, *water_, *soil_, cost_
+                properties_,
+                settings_.strictKeywords,
+                readChoiceOrDefault
+                (
+                    control_, "pressureForm", "gradient",
+                    {"gradient", "divergence"}
+                ) == "divergence",
+                *water_,
+                *soil_,
+                cost_
             )
         );
     }
@@ -575,9 +584,9 @@ void Foam::mpm::materialPointSystem::updateStress()
 {
     const scalar deltaT = time_.deltaTValue();
 
-
     // The pressure of the water acts on soil points, too
     if (water_) water_->updateStress(deltaT);
+    if (interaction_.valid()) interaction_->keepWaterPressure();
     if (soil_) soil_->updateStress(deltaT);
 }
 

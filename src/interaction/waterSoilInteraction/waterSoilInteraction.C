@@ -46,6 +46,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
 (
     const dictionary& properties,
     const bool strictKeywords,
+    const bool divergenceForm,
     waterCloud& water,
     soilCloud& soil,
     costMeter& cost
@@ -55,6 +56,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     water_(water),
     soil_(soil),
     cost_(cost),
+    divergenceForm_(divergenceForm),
     nPacked_(0)
 {
     const dictionary dict(properties.subOrEmptyDict("interaction"));
@@ -175,6 +177,24 @@ void Foam::mpm::waterSoilInteraction::mixture()
 }
 
 
+void Foam::mpm::waterSoilInteraction::keepWaterPressure()
+{
+    if (!divergenceForm_) return;
+
+    cost_.start("coupling");
+    grid_.exchange().sum(fields_.pressureForce);
+    for (const auto& range : water_.nodeRanges())
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            water_.nodes().force[i] += fields_.pressureForce[i];
+            fields_.pressureForce[i] = nodeVector{};
+        }
+    }
+    cost_.stop();
+}
+
+
 void Foam::mpm::waterSoilInteraction::sharePressure()
 {
     cost_.start("coupling");
@@ -186,6 +206,20 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     nodalFields& water = water_.nodes();
 
     grid_.exchange().sum(fields_.pressureForce);
+
+    if (divergenceForm_)
+    {
+        // What is left is of the points of soil
+        for (const auto& range : soil_.nodeRanges())
+        {
+            for (label i = range.first; i < range.second; ++i)
+            {
+                soil.force[i] += fields_.pressureForce[i];
+            }
+        }
+        cost_.stop();
+        return;
+    }
 
     // Water takes all of it, and gives soil its share
     for (const auto& range : water_.nodeRanges())
@@ -224,6 +258,7 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
 
     const label dim = grid_.nDim();
     const label n = nodes_.size();
+    const bool held = soil_.model().held();
     const nodalFields& soil = soil_.nodes();
     const nodalFields& water = water_.nodes();
     nodeField<nodeVector>& vs = soil_.nodes().velocity;
@@ -247,20 +282,20 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
     for (label k = 0; k < n; ++k)
     {
         const label i = nodes_[k];
-        const scalar mw = water.momentum[i][dim];
-        const scalar ms = soil.momentum[i][dim];
-        const scalar factor = deltaT*bulkVolume_[k]*(1/mw + 1/ms);
+        const scalar perWater = 1/water.momentum[i][dim];
+        const scalar perSoil = held ? 0 : 1/soil.momentum[i][dim];
+        const scalar factor = deltaT*bulkVolume_[k]*(perWater + perSoil);
         const scalar linear = 1 + factor*a_[k];
         const scalar kept =
             2
            /(linear + std::sqrt(sqr(linear) + 4*factor*b_[k]*speed_[k]));
-        const scalar reduced = (1 - kept)*mw*ms/(mw + ms);
+        const scalar reduced = (1 - kept)/(perWater + perSoil);
 
         for (label d = 0; d < dim; ++d)
         {
             const scalar impulse = reduced*(vw[i][d] - vs[i][d]);
-            vw[i][d] -= impulse/mw;
-            vs[i][d] += impulse/ms;
+            vw[i][d] -= perWater*impulse;
+            vs[i][d] += perSoil*impulse;
         }
     }
 
@@ -279,7 +314,12 @@ void Foam::mpm::waterSoilInteraction::effects
     table.append
     (
         FixedList<string, 3>
-        ({"coupling", "on", "pressure in gradient form"})
+        ({
+            "coupling", "on",
+            divergenceForm_
+          ? "pressure in divergence form: for comparison only"
+          : "pressure in gradient form"
+        })
     );
     table.append
     (

@@ -200,6 +200,16 @@ public:
         {
             this->accelerate(deltaT, [](const label, nodeVector&) {});
         }
+        if (c.model_->held())
+        {
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    for (int d = 0; d < dim; ++d) c.nodes_.velocity[i][d] = 0;
+                }
+            );
+        }
         if (c.settings_.energyBalance)
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
