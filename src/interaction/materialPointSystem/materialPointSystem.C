@@ -290,14 +290,19 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime() const
         scalar base = start - interval*std::round(start/interval);
         if (mag(base) < same*interval) base = 0;
 
-        const scalar passed =
-            std::floor((time_.value() - base)/interval + same);
-        next = min(next, base + (passed + 1)*interval);
+        // As a restart reads it from the name of the directory; that may be
+        // short of a multiple (a third of a second), which is then passed
+        scalar count = std::floor((time_.value() - base)/interval + same);
+        scalar named;
+        do
+        {
+            ++count;
+            named = readScalar(Time::timeName(base + count*interval));
+        }
+        while (named <= time_.value());
+        next = min(next, named);
     }
-    if (next == GREAT) return next;
-
-    // As a restart reads it from the name of the directory
-    return readScalar(Time::timeName(next));
+    return next;
 }
 
 
