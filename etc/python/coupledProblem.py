@@ -31,10 +31,10 @@ def settling(case):
 
 
 def consolidation(case):
-    """From a time factor of 0.05 on: before that, the sound of the start"""
+    """From a time factor of 0.1 on: before that, the sound of the start"""
     layer = coupled.Consolidation(case)
     rows = [layer.at(t) for t in case.times() if float(t) > 0]
-    rows = [r for r in rows if r["T"] >= 0.05]
+    rows = [r for r in rows if r["T"] >= 0.1]
     late = [r for r in rows if r["T"] >= 0.5]
     return {"stiffnessRatio": layer.stiffnessRatio,
             "timeFactorEnd": rows[-1]["T"],
@@ -131,9 +131,8 @@ def drawConsolidation(panel, case, **line):
         panel.plot(coupled.terzaghi(1 - z, row["T"])[0], z,
                    color=style.REFERENCE,
                    label="Terzaghi" if T == wanted[0] else None)
-        panel.annotate(f"T = {row['T']:.2f}", (row["p"][0], 0.02),
-                       ha="right", fontsize=7)
-    panel.set(xlabel="p / u0", ylabel="y / H")
+    panel.set(xlabel="p / u0", ylabel="y / H", title="T = "
+              + ", ".join(f"{T:g}" for T in reversed(wanted)))
 
 
 def drawWetting(panel, case, **line):

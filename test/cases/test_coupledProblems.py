@@ -173,7 +173,7 @@ def testDivergenceForm(tmp_path, figures):
 @pytest.fixture(scope="module")
 def collapse(tmp_path_factory):
     """0.3 s of the collapse of a dense column, coarse"""
-    run = coupling.collapse("coarse", h=0.006, end=0.3)
+    run = coupling.collapse("coarse", h=0.006, end=0.3, points=3)
     run.settings["system/controlDict"]["writeInterval"] = 0.1
     case = solved(tmp_path_factory.mktemp("collapse"), run)
     return RunningCase(case.path, Setup(cells=(50, 14), h=0.006, regions={}))

@@ -91,12 +91,14 @@ def bed(name, h=0.01, level=0.3, end=10, form="gradient", **about):
         h=h, level=level, **about)
 
 
-def collapse(name, h=0.003, end=18, cap=15):
+def collapse(name, h=0.003, end=18, cap=15, points=4):
     return run(
         "immersedCollapse", name,
         {"system/blockMeshDict": {"h": h, "nx": round(0.3/h),
                                   "ny": round(0.084/h)},
          "system/fvSolution": {"MPM/maxSoilSoundSpeed": cap},
+         POINTS: {"water/pointsPerDirection": points,
+                  "soil/pointsPerDirection": points},
          "system/controlDict": {"endTime": end}},
         h=h, end=end)
 
@@ -113,7 +115,7 @@ RUNS = (
        bed("inAir", level=0.1, end=5),
        bed("divergence", end=1, form="divergence")]
     + [run("wettingFront", "h0.01", {})]
-    + [collapse("h0.003"), collapse("h0.003_stiff", end=3, cap=1000)]
+    + [collapse("h0.003"), collapse("h0.003_points2", end=3, points=2)]
 )
 
 
