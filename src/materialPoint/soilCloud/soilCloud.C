@@ -274,10 +274,14 @@ void Foam::mpm::soilCloud::finishPoints()
 
 Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
 {
-    // Undrained, the liquid in the pores stiffens the skeleton
+    // Undrained, the liquid in the pores stiffens the skeleton. The stiffest
+    // and the densest point may be on different ranks: together they limit the
+    // step, or it would depend on the decomposition
+    const scalar waveSpeedSqr = returnReduce(waveSpeedSqr_, maxOp<scalar>());
+    const scalar voidRatio = returnReduce(minVoidRatio_, minOp<scalar>());
     const scalar porosity =
-        minVoidRatio_ < GREAT ? minVoidRatio_/(1 + minVoidRatio_) : 1;
-    return std::sqrt(waveSpeedSqr_ + sqr(liquidSoundSpeed_)/porosity);
+        voidRatio < GREAT ? voidRatio/(1 + voidRatio) : 1;
+    return std::sqrt(waveSpeedSqr + sqr(liquidSoundSpeed_)/porosity);
 }
 
 
