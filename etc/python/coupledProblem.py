@@ -73,7 +73,10 @@ def wettingFront(case):
 def immersedCollapse(case):
     rows = coupled.collapseCourse(case)
     early = rows[(rows[:, 0] > 0) & (rows[:, 0] <= 1)]
+    excess = [coupled.overlap(case, t) for t in case.times()]
     return {"frontEnd": rows[-1, 1], "heightEnd": rows[-1, 2],
+            "overlapMeanMax": max(e[0] for e in excess),
+            "overlapMax": max(e[1] for e in excess),
             "porePressureMin": rows[:, 3].min(),
             "porePressureEarlyMean": early[:, 3].mean()}
 

@@ -184,9 +184,11 @@ def testCollapse(collapse, figures):
     rows = coupled.collapseCourse(case)
     figures.atLeast("way of the front, m", rows[-1, 1] - rows[0, 1], 1e-3)
     figures.atMost("early pore pressure of a dense column, Pa",
-                   rows[1:, 3].max(), -10)
+                   rows[1:, 3].max(), -5)
     figures.atMost("energy: largest climb over the initial",
                    coupled.energyGrowth(case), 1e-3)
+    figures.atMost("overlap of water and grains, mean", max(
+        coupled.overlap(case, t)[0] for t in case.times()), 2e-3)
     figures.atMost("mass: error", coupled.massError(case), 1e-13)
 
 
@@ -214,14 +216,16 @@ def testCollapseGoesOnExactly(collapse, tmp_path, figures):
 
 def testCollapseOnTwoRanks(collapse, tmp_path, figures):
     """After 100 steps, to rounding; both ranks have part of the column"""
-    cases = [goOn(collapse, tmp_path/name, stopAt="nextWrite",
-                  writeControl="timeStep", writeInterval=100)
+    # Times are written at multiples of the interval
+    index = int(collapse.state("0.2", "soil")["stepCount"])
+    cases = [goOn(collapse, tmp_path/name, endTime=1, stopAt="nextWrite",
+                  writeControl="timeStep", writeInterval=index + 100)
              for name in ("serial", "parallel")]
     x = cases[1].case.cellCentres("0.2")[:, 0]
     cases[1].decompose(2, cellRank=x > 0.05, times="0.2")
     for case, ranks in zip(cases, (1, 2)):
         case.solve(ranks=ranks)
-    figures.equal("steps", cases[0].log.stepCount, cases[1].log.stepCount)
+    figures.equal("steps", [c.log.stepCount for c in cases], [100, 100])
     a, b = ([CloudPoints(c, cloud, c.times[-1]) for cloud in CLOUDS]
             for c in cases)
     figures.atLeast("speed of the fastest grain, m/s",

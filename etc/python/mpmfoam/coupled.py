@@ -351,6 +351,15 @@ def collapseCourse(case, probe=0.02):
     return np.array(rows)
 
 
+def overlap(case, time):
+    """By how much water and grains together fill more than there is, in cells
+    that are full: mean and largest"""
+    _, y, total = case.lattice(time, "alpha.water")
+    total = total + case.lattice(time, "alpha.soil")[2]
+    full = y < 0.9*box(case, "liquid")[1][1]
+    return float(total[full].mean() - 1), float(total[full].max() - 1)
+
+
 def profileTime(case, time):
     """The file of scourProfile nearest to a time"""
     root = Path(case.path)/"postProcessing"/"scour"
