@@ -31,15 +31,16 @@ def settling(case):
 
 
 def consolidation(case):
-    """From a time factor of 0.1 on: before that, the sound of the start"""
+    """The largest error is of the sound of the start, which fades until a
+    time factor of about 0.2; the mean is of the times behind it"""
     layer = coupled.Consolidation(case)
     rows = [layer.at(t) for t in case.times() if float(t) > 0]
-    rows = [r for r in rows if r["T"] >= 0.1]
+    rows = [r for r in rows if r["T"] >= 0.05]
     late = [r for r in rows if r["T"] >= 0.5]
     return {"stiffnessRatio": layer.stiffnessRatio,
             "timeFactorEnd": rows[-1]["T"],
             "poreRmsMax": max(r["rms"] for r in rows),
-            "poreRmsMean": np.mean([r["rms"] for r in rows]),
+            "poreRmsMean": np.mean([r["rms"] for r in rows if r["T"] >= 0.2]),
             "baseOscillationMax": max(r["oscillation"] for r in rows),
             "settlementErrorMax": max((r["settlement"]/r["degree"] - 1
                                        for r in late), key=abs)}

@@ -17,7 +17,9 @@ from coupledProblem import PROBLEMS  # noqa: E402
 from mpmfoam import coupled, reference  # noqa: E402
 
 from caseBuilder import RunningCase, Setup, box  # noqa: E402
+from test_badInput import refused, words  # noqa: E402
 from test_wallJet import CLOUDS, CloudPoints, body  # noqa: E402
+from test_wallJet import bed as restingBed  # noqa: E402
 
 
 def solved(tmp_path, run):
@@ -123,6 +125,8 @@ def testConsolidation(tmp_path, figures):
                     found["stiffnessRatio"], 20)
     figures.atMost("pore pressure: rms error over u0", found["poreRmsMax"],
                    0.03)
+    figures.atMost("its mean without the sound of the start",
+                   found["poreRmsMean"], 1e-3)
     figures.atMost("oscillation at the base over u0",
                    found["baseOscillationMax"], 0.02)
     figures.atMost("settlement: error", abs(found["settlementErrorMax"]), 0.03)
@@ -166,6 +170,16 @@ def testDivergenceForm(tmp_path, figures):
     found = coupled.bedAtRest(case, "0.25")
     figures.atLeast("rms speed of the soil, m/s", found["vRmsSoil"], 1e-2)
     figures.atLeast("suspended points", found["suspended"], 1)
+
+
+def testUnknownPressureForm(tmp_path, figures):
+    case = restingBed(0.1, mpm={"pressureForm": "divergent"}).write(
+        tmp_path/"case")
+    case.run("blockMesh")
+    refused(figures, case.run("setMaterialPoints", check=False), {
+        "file": r"system/fvSolution", "keyword": r"\bpressureForm\b",
+        "value": r"\bdivergent\b",
+        "allowed": words("gradient", "divergence")})
 
 
 # --- a collapse in water --------------------------------------------------
