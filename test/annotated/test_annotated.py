@@ -265,7 +265,8 @@ def testAccepted(tmp_path):
     assert text.rstrip().endswith("End")
     assert "unknown keyword" not in text
     for output in ["energy/0/energy.dat", "front/0/front.dat",
-                   "gauge/0/waveGauge.dat",
-                   "balance/0/massBalance.dat", "scour/0/scourProfile.dat",
-                   "scour/0/profile.csv", "pressure/0/p"]:
+                   "gauge/0/waveGauge.dat", "balance/0/massBalance.dat",
+                   "scour/0/scourProfile.dat", "scour/0/profile.csv",
+                   "pressure/0/p", "materialPointHDF5/soil.h5",
+                   "materialPointHDF5/soil.xdmf"]:
         assert (tmp_path/"postProcessing"/output).stat().st_size > 0

@@ -4,51 +4,10 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "cloudTimeSeries.H"
-#include "dictionaryEntries.H"
-#include "FlatOutput.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::mpm::cloudTimeSeries::checkEntries(const dictionary& dict) const
-{
-    // Of Foam::functionObject and its time control, v1912 to v2506
-    wordList known
-    ({
-        "type", "libs", "functionObjectLibs", "region", "enabled", "errors",
-        "log", "timeStart", "timeEnd", "triggerStart", "triggerEnd",
-        "controlMode", "deltaTCoeff", "nStepsToStartTimeChange",
-        "executeControl", "executeInterval", "writeControl", "writeInterval",
-        "outputControl", "outputInterval", "writePrecision", "writeToFile",
-        "useUserTime", "useNamePrefix", "updateHeader",
-        "cloud"
-    });
-    known.append(keywords());
-
-    const dictionary control(mesh_.solutionDict().subOrEmptyDict("MPM"));
-    checkKeywords
-    (
-        dict,
-        known,
-        control.lookupOrDefault<Switch>("strictKeywords", true)
-    );
-}
-
-
-void Foam::mpm::cloudTimeSeries::checkCloud(const dictionary& dict) const
-{
-    if (!mesh_.foundObject<materialPointCloud>(cloudName_))
-    {
-        FatalIOErrorInFunction(dict)
-            << "function object " << name() << ", keyword cloud: there is no"
-            << " material point cloud " << cloudName_ << '.' << nl
-            << "    Clouds of this case: "
-            << flatOutput(mesh_.sortedNames<materialPointCloud>())
-            << exit(FatalIOError);
-    }
-}
-
 
 void Foam::mpm::cloudTimeSeries::openFile()
 {
@@ -75,7 +34,7 @@ void Foam::mpm::cloudTimeSeries::openFile()
     filePtr_ = createFile(fileName_, start);
 
     OFstream& os = file();
-    writeHeader(os, type() + " of the cloud " + cloudName_);
+    writeHeader(os, type() + " of the cloud " + cloud().name());
     for (const string& line : description()) writeHeader(os, line);
     writeCommented(os, "Time");
     for (const word& column : columns_) writeTabbed(os, column);
@@ -84,12 +43,6 @@ void Foam::mpm::cloudTimeSeries::openFile()
 
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-const Foam::mpm::materialPointCloud& Foam::mpm::cloudTimeSeries::cloud() const
-{
-    return mesh_.lookupObject<materialPointCloud>(cloudName_);
-}
-
 
 void Foam::mpm::cloudTimeSeries::sumToMaster(scalarList& values)
 {
@@ -107,7 +60,7 @@ Foam::mpm::cloudTimeSeries::cloudTimeSeries
     const word& file
 )
 :
-    fvMeshFunctionObject(name, runTime, dict),
+    cloudFunctionObject(name, runTime, dict),
     writeFile(mesh_, name, file)
 {}
 
@@ -117,23 +70,14 @@ Foam::mpm::cloudTimeSeries::cloudTimeSeries
 void Foam::mpm::cloudTimeSeries::start(const dictionary& dict)
 {
     read(dict);
-
-    const scalar now = mesh_.time().timeOutputValue();
-    if (dict.lookupOrDefault<scalar>("timeStart", now) <= now) write();
+    if (started(dict)) write();
 }
 
 
 bool Foam::mpm::cloudTimeSeries::read(const dictionary& dict)
 {
-    fvMeshFunctionObject::read(dict);
     writeFile::read(dict);
-
-    checkEntries(dict);
-    cloudName_ = dict.get<word>("cloud");
-    checkCloud(dict);
-    log = dict.lookupOrDefault<Switch>("log", false);
-
-    readEntries(dict);
+    cloudFunctionObject::read(dict);
     openFile();
 
     return true;
@@ -142,25 +86,27 @@ bool Foam::mpm::cloudTimeSeries::read(const dictionary& dict)
 
 bool Foam::mpm::cloudTimeSeries::write()
 {
-    const scalarList numbers(values());
-
-    if (writeToFile())
+    for (const scalarList& numbers : rows())
     {
-        OFstream& os = file();
-        writeCurrentTime(os);
-        for (const scalar number : numbers)
+        if (writeToFile())
         {
-            os  << tab << valueWidth() << number;
+            OFstream& os = file();
+            writeCurrentTime(os);
+            for (const scalar number : numbers)
+            {
+                os  << tab << valueWidth() << number;
+            }
+            os  << nl;
         }
-        os  << endl;
+        if (log)
+        {
+            Info<< type() << ' ' << name() << ':';
+            forAll(columns_, i) Info<< ' ' << columns_[i] << ' ' << numbers[i];
+            Info<< nl;
+        }
     }
-
-    if (log)
-    {
-        Info<< type() << ' ' << name() << ':';
-        forAll(columns_, i) Info<< ' ' << columns_[i] << ' ' << numbers[i];
-        Info<< endl;
-    }
+    if (writeToFile()) file().flush();
+    if (log) Info<< flush;
     return true;
 }
 

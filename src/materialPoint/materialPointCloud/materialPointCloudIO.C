@@ -229,22 +229,27 @@ Foam::tmp<Foam::symmTensorField> Foam::mpm::materialPointCloud::symmTensors
 }
 
 
+Foam::tmp<Foam::pointField> Foam::mpm::materialPointCloud::positions() const
+{
+    tmp<pointField> result(vectors(points_.fields()[0]));
+    if (grid_.nDim() == 2)
+    {
+        const label axis = grid_.cells().axis(2);
+        for (point& x : result.ref()) x[axis] = grid_.cells().midPlane();
+    }
+    return result;
+}
+
+
 void Foam::mpm::materialPointCloud::geometry
 (
     pointField& position,
     labelList& cell
 ) const
 {
-    position = vectors(points_.fields()[0]);
+    position = positions();
     cell.setSize(size());
-    forAll(cell, i)
-    {
-        if (grid_.nDim() == 2)
-        {
-            position[i][grid_.cells().axis(2)] = grid_.cells().midPlane();
-        }
-        cell[i] = grid_.meshCell(points_.cell()[i]);
-    }
+    forAll(cell, i) cell[i] = grid_.meshCell(points_.cell()[i]);
 }
 
 
@@ -404,51 +409,13 @@ bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
             .writeObject(MPM_WRITE_ARGUMENTS) && ok;
     }
 
-    for (const pointStorage::field& f : points_.fields())
-    {
-        switch (f.rank)
+    visitFields
+    (
+        [&](const word& field, const auto& values)
         {
-            case pointStorage::scalarValue:
-            {
-                ok = writeField<scalar>
-                    (f.name, *this, scalars(f), MPM_WRITE_ARGUMENTS) && ok;
-                break;
-            }
-            case pointStorage::vectorValue:
-            {
-                // The exact position file has its third component, too
-                tmp<vectorField> values
-                (
-                    f.first == x_
-                  ? tmp<vectorField>(new vectorField(position))
-                  : vectors(f)
-                );
-                ok = writeField<vector>
-                    (f.name, *this, values, MPM_WRITE_ARGUMENTS) && ok;
-                break;
-            }
-            case pointStorage::symmTensorValue:
-            {
-                ok = writeField<symmTensor>
-                    (f.name, *this, symmTensors(f), MPM_WRITE_ARGUMENTS) && ok;
-                break;
-            }
-            case pointStorage::tensorValue:
-            {
-                ok = writeField<tensor>
-                    (f.name, *this, tensors(f), MPM_WRITE_ARGUMENTS) && ok;
-                break;
-            }
+            ok = writeField(field, *this, values(), MPM_WRITE_ARGUMENTS) && ok;
         }
-    }
-
-    HashTable<tmp<scalarField>> derived;
-    derivedFields(derived);
-    forAllIters(derived, iter)
-    {
-        ok = writeField<scalar>
-            (iter.key(), *this, iter.val(), MPM_WRITE_ARGUMENTS) && ok;
-    }
+    );
     return ok;
 }
 
