@@ -16,6 +16,7 @@ ANNOTATED = ROOT/"etc"/"caseDicts"/"annotated"
 EXPLAINED_IN = {
     "src/interaction/materialPointSystem": "fvSolution",
     "src/interaction/dragModel": "materialPointProperties",
+    "src/interaction/erosionCriterion": "controlDict",
     "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
     "src/backgroundGrid/nodeBoundary": "U.water",
@@ -125,6 +126,7 @@ def testDefault(source, entry):
     ("src/interaction/dragModel", "dragModel", "materialPointProperties"),
     ("src/materialPoint/inflowOutflow/outlet", "outlet",
      "materialPointProperties"),
+    ("src/interaction/erosionCriterion", "erosionCriterion", "controlDict"),
 ])
 def testModels(family, base, name):
     models = [d.name for d in (ROOT/family).iterdir() if d.is_dir()]
@@ -267,6 +269,8 @@ def testAccepted(tmp_path):
     for output in ["energy/0/energy.dat", "front/0/front.dat",
                    "gauge/0/waveGauge.dat", "balance/0/massBalance.dat",
                    "scour/0/scourProfile.dat", "scour/0/profile.csv",
-                   "pressure/0/p", "materialPointHDF5/soil.h5",
+                   "pressure/0/p", "erosion/0/erosionCriteria.dat",
+                   "erosion/0/velocityProfiles.csv",
+                   "materialPointHDF5/soil.h5",
                    "materialPointHDF5/soil.xdmf"]:
         assert (tmp_path/"postProcessing"/output).stat().st_size > 0

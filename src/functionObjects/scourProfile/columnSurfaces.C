@@ -19,23 +19,6 @@ Foam::label Foam::mpm::columnSurfaces::place(const index3& i) const
 }
 
 
-Foam::scalarField Foam::mpm::columnSurfaces::gather
-(
-    const volScalarField& field
-) const
-{
-    scalarField values(nColumns()*nRows(), scalar(-1));
-    forAll(field, celli)
-    {
-        values[place(grid_.cells().cellIndex(celli))] =
-            max(scalar(0), field[celli]);
-    }
-    Pstream::listCombineGather(values, maxEqOp<scalar>());
-    Pstream::listCombineScatter(values);
-    return values;
-}
-
-
 Foam::scalar Foam::mpm::columnSurfaces::crossing
 (
     const scalar* fraction,
@@ -154,6 +137,41 @@ Foam::scalar Foam::mpm::columnSurfaces::height(const label row) const
 Foam::label Foam::mpm::columnSurfaces::column(const label cell) const
 {
     return place(grid_.cells().cellIndex(grid_.meshCell(cell)))/nRows();
+}
+
+
+Foam::scalarField Foam::mpm::columnSurfaces::gather
+(
+    const volScalarField& field
+) const
+{
+    scalarField values(nColumns()*nRows(), scalar(-1));
+    forAll(field, celli)
+    {
+        values[place(grid_.cells().cellIndex(celli))] =
+            max(scalar(0), field[celli]);
+    }
+    Pstream::listCombineGather(values, maxEqOp<scalar>());
+    Pstream::listCombineScatter(values);
+    return values;
+}
+
+
+Foam::scalarField Foam::mpm::columnSurfaces::gather
+(
+    const volVectorField& field,
+    const label d
+) const
+{
+    const direction axis = grid_.cells().axis(d);
+    scalarField values(nColumns()*nRows(), Zero);
+    forAll(field, celli)
+    {
+        values[place(grid_.cells().cellIndex(celli))] = field[celli][axis];
+    }
+    Pstream::listCombineGather(values, plusEqOp<scalar>());
+    Pstream::listCombineScatter(values);
+    return values;
 }
 
 

@@ -4,9 +4,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "scourProfile.H"
-#include "soilCloud.H"
-#include "dictionaryEntries.H"
-#include "gravityMeshObject.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 #include "addToRunTimeSelectionTable.H"
@@ -23,99 +20,23 @@ namespace mpm
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::label Foam::mpm::scourProfile::findVertical
-(
-    const dictionary& dict,
-    bool& upward
-) const
-{
-    const vector g = meshObjects::gravity::New(mesh_.time()).value();
-    const lattice& cells = cloud().grid().cells();
-
-    label vertical = 0;
-    for (label d = 1; d < cells.nDim(); ++d)
-    {
-        if (mag(g[cells.axis(d)]) > mag(g[cells.axis(vertical)])) vertical = d;
-    }
-    if (mag(g[cells.axis(vertical)]) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "function object " << name() << ": a profile of the bed needs"
-            << " gravity to know what is up, but the value in constant/g is "
-            << g << exit(FatalIOError);
-    }
-    upward = g[cells.axis(vertical)] < 0;
-    return vertical;
-}
-
-
-Foam::label Foam::mpm::scourProfile::findDirection
-(
-    const dictionary& dict,
-    const label vertical
-) const
-{
-    const vector direction
-    (
-        dict.lookupOrDefault<vector>("direction", vector(1, 0, 0))
-    );
-    const lattice& cells = cloud().grid().cells();
-
-    DynamicList<vector> allowed;
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        if (d == vertical) continue;
-
-        vector axis(Zero);
-        axis[cells.axis(d)] = 1;
-        if (mag(direction & axis) > (1 - 1e-6)*mag(direction) + VSMALL)
-        {
-            return d;
-        }
-        allowed.append(axis);
-    }
-    FatalIOErrorInFunction(dict)
-        << "keyword direction is " << direction << '.' << nl
-        << "    Allowed: a horizontal direction of the mesh, one of "
-        << allowed << exit(FatalIOError);
-    return -1;
-}
-
-
-void Foam::mpm::scourProfile::readBedFraction(const dictionary& dict)
-{
-    const soilCloud* soil = dynamic_cast<const soilCloud*>(&cloud());
-    if (!soil)
-    {
-        FatalIOErrorInFunction(dict)
-            << "keyword cloud is " << cloud().name() << '.' << nl
-            << "    Allowed for " << type() << ": a cloud of soil"
-            << exit(FatalIOError);
-    }
-    bedFraction_ = readBoundedOrDefault
-    (
-        dict, "bedFraction", dimless, 1/(1 + soil->model().e0()), 0, 1
-    );
-}
-
-
 void Foam::mpm::scourProfile::readReservoir(const dictionary& dict)
 {
     reservoir_ = Tuple2<scalar, scalar>(GREAT, -GREAT);
     if (!dict.found("reservoir")) return;
 
     reservoir_ = dict.get<Tuple2<scalar, scalar>>("reservoir");
-    for (label s = 0; s < surfaces_->nStations(); ++s)
+    for (label s = 0; s < surfaces().nStations(); ++s)
     {
-        const scalar x = surfaces_->coordinate(s);
+        const scalar x = surfaces().coordinate(s);
         if (x >= reservoir_.first() && x <= reservoir_.second()) return;
     }
     FatalIOErrorInFunction(dict)
         << "keyword reservoir is " << reservoir_
         << ": no column of cells lies between." << nl
         << "    Allowed: two coordinates, first < last, between "
-        << surfaces_->coordinate(0) << " and "
-        << surfaces_->coordinate(surfaces_->nStations() - 1)
+        << surfaces().coordinate(0) << " and "
+        << surfaces().coordinate(surfaces().nStations() - 1)
         << exit(FatalIOError);
 }
 
@@ -128,7 +49,7 @@ void Foam::mpm::scourProfile::findInitial()
     {
         getProperty(property, initial_);
     }
-    if (initial_.size() != surfaces_->nColumns())
+    if (initial_.size() != surfaces().nColumns())
     {
         if (cloud().stepCount())
         {
@@ -150,37 +71,21 @@ void Foam::mpm::scourProfile::findInitial()
 }
 
 
-Foam::mpm::columnSurfaces::heights Foam::mpm::scourProfile::find() const
-{
-    auto alpha = [&](const word& cloudName)
-    {
-        return mesh_.findObject<volScalarField>
-        (
-            IOobject::groupName("alpha", cloudName)
-        );
-    };
-    return surfaces_->find
-    (
-        *alpha(cloud().name()), alpha(waterName_), bedFraction_
-    );
-}
-
-
 Foam::scalar Foam::mpm::scourProfile::suspendedFraction
 (
     const scalarField& bed
 ) const
 {
     const materialPointCloud& soil = cloud();
-    const scalar h = soil.grid().cells().spacing(vertical_);
+    const scalar h = soil.grid().cells().spacing(vertical());
 
     scalar above = 0, all = 0;
     for (label p = 0; p < soil.size(); ++p)
     {
-        const scalar z = surfaces_->heightOf(soil.x(vertical_)[p]);
+        const scalar z = surfaces().heightOf(soil.x(vertical())[p]);
         const scalar m = soil.mass()[p];
         all += m;
-        if (z > bed[surfaces_->column(soil.points().cell()[p])] + h) above += m;
+        if (z > bed[surfaces().column(soil.points().cell()[p])] + h) above += m;
     }
     reduce(above, sumOp<scalar>());
     reduce(all, sumOp<scalar>());
@@ -197,7 +102,7 @@ Foam::scalar Foam::mpm::scourProfile::reservoirLevel
     label n = 0;
     forAll(water, c)
     {
-        const scalar x = surfaces_->coordinate(surfaces_->station(c));
+        const scalar x = surfaces().coordinate(surfaces().station(c));
         if
         (
             x >= reservoir_.first() && x <= reservoir_.second()
@@ -217,7 +122,7 @@ void Foam::mpm::scourProfile::writeProfile() const
     const columnSurfaces::heights h(find());
     if (!writeToFile() || !Pstream::master()) return;
 
-    const label n = surfaces_->nStations();
+    const label n = surfaces().nStations();
     auto mean = [&](const scalarField& z, const label station)
     {
         scalar sum = 0;
@@ -238,7 +143,7 @@ void Foam::mpm::scourProfile::writeProfile() const
     os  << "x,bed,water" << nl;
     for (label s = 0; s < n; ++s)
     {
-        os  << surfaces_->coordinate(s) << ',' << mean(h.bed, s) << ','
+        os  << surfaces().coordinate(s) << ',' << mean(h.bed, s) << ','
             << mean(h.water, s) << nl;
     }
 }
@@ -248,24 +153,15 @@ void Foam::mpm::scourProfile::writeProfile() const
 
 Foam::wordList Foam::mpm::scourProfile::keywords() const
 {
-    return wordList({"water", "direction", "bedFraction", "reservoir"});
+    wordList names(bedTimeSeries::keywords());
+    names.append("reservoir");
+    return names;
 }
 
 
 void Foam::mpm::scourProfile::readEntries(const dictionary& dict)
 {
-    readBedFraction(dict);
-    waterName_ = dict.lookupOrDefault<word>("water", "water");
-
-    bool upward = true;
-    vertical_ = findVertical(dict, upward);
-    surfaces_.reset
-    (
-        new columnSurfaces
-        (
-            cloud().grid(), findDirection(dict, vertical_), vertical_, upward
-        )
-    );
+    bedTimeSeries::readEntries(dict);
     readReservoir(dict);
 
     // Not again when controlDict is read again
@@ -311,7 +207,7 @@ Foam::scalarList Foam::mpm::scourProfile::values() const
         if (std::isnan(h.bed[c])) continue;
 
         const scalar rise = h.bed[c] - initial_[c];
-        const scalar x = surfaces_->coordinate(surfaces_->station(c));
+        const scalar x = surfaces().coordinate(surfaces().station(c));
         if (-rise > v[0])
         {
             v[0] = -rise;
@@ -322,8 +218,8 @@ Foam::scalarList Foam::mpm::scourProfile::values() const
             v[2] = rise;
             v[3] = x;
         }
-        v[4] += max(scalar(0), -rise)*surfaces_->area();
-        v[5] += max(scalar(0), rise)*surfaces_->area();
+        v[4] += max(scalar(0), -rise)*surfaces().area();
+        v[5] += max(scalar(0), rise)*surfaces().area();
     }
     v[6] = suspendedFraction(h.bed);
 
@@ -344,10 +240,7 @@ Foam::mpm::scourProfile::scourProfile
     const dictionary& dict
 )
 :
-    cloudTimeSeries(name, runTime, dict, "scourProfile"),
-    waterName_("water"),
-    vertical_(-1),
-    bedFraction_(0),
+    bedTimeSeries(name, runTime, dict, "scourProfile"),
     reservoir_(GREAT, -GREAT)
 {
     start(dict);

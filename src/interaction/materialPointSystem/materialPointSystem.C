@@ -218,7 +218,8 @@ void Foam::mpm::materialPointSystem::findFieldControls()
     // ... and those that look at fields only when they write
     const wordHashSet onWrite
     ({
-        "probes", "patchProbes", "sets", "surfaces", "scourProfile"
+        "probes", "patchProbes", "sets", "surfaces", "scourProfile",
+        "erosionCriteria"
     });
 
     const dictionary* functions =

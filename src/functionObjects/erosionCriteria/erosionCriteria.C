@@ -1,0 +1,525 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "erosionCriteria.H"
+#include "waterCloud.H"
+#include "dictionaryEntries.H"
+#include "gravityMeshObject.H"
+#include "volFields.H"
+#include "OSspecific.H"
+#include "FlatOutput.H"
+#include "PstreamReduceOps.H"
+#include "addToRunTimeSelectionTable.H"
+#include <limits>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(erosionCriteria, 0);
+    addToRunTimeSelectionTable(functionObject, erosionCriteria, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+
+using namespace Foam;
+
+const scalar noNumber = std::numeric_limits<scalar>::quiet_NaN();
+
+
+//- Mean of what is a number; none if nothing is
+class meanOfNumbers
+{
+    scalar sum_ = 0;
+    label n_ = 0;
+
+public:
+
+    void add(const scalar s)
+    {
+        if (std::isnan(s)) return;
+        sum_ += s;
+        ++n_;
+    }
+
+    scalar value() const { return n_ ? sum_/n_ : noNumber; }
+};
+
+} // End anonymous namespace
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+const Foam::mpm::waterCloud& Foam::mpm::erosionCriteria::water
+(
+    const dictionary& dict
+) const
+{
+    const waterCloud* water = dynamic_cast<const waterCloud*>
+    (
+        mesh_.findObject<materialPointCloud>(waterName())
+    );
+    if (!water)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword water is " << waterName() << '.' << nl
+            << "    Allowed for " << type() << ": a cloud of water"
+            << exit(FatalIOError);
+    }
+    return *water;
+}
+
+
+void Foam::mpm::erosionCriteria::readCriteria(const dictionary& dict)
+{
+    const weaklyCompressibleNewtonian& fluid = water(dict).fluid();
+
+    erosionCriterion::bed bed;
+    bed.d = soil().model().d();
+    bed.rhoS = soil().model().rhoS();
+    bed.frictionAngle =
+        dict.found("frictionAngle")
+      ? readBounded(dict, "frictionAngle", dimless, 0, 90, true)
+      : -1;
+    bed.rho = fluid.rho0();
+    bed.mu = fluid.mu();
+    bed.g = mag(meshObjects::gravity::New(mesh_.time()).value());
+
+    names_ = dict.lookupOrDefault<wordList>
+    (
+        "criteria", wordList({"Shields", "vanRijn", "Annandale"})
+    );
+    criteria_.clear();
+    criteria_.setSize(names_.size());
+    forAll(names_, i)
+    {
+        criteria_.set(i, erosionCriterion::New(names_[i], dict, bed).ptr());
+    }
+}
+
+
+void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
+{
+    logLaw_ =
+        readChoiceOrDefault
+        (
+            dict, "shearStress", "logLaw", {"logLaw", "viscous"}
+        ) == "logLaw";
+    roughness_ = readBoundedOrDefault
+    (
+        dict, "roughness", dimLength,
+        roughnessPerDiameter*soil().model().d(), 0, GREAT
+    );
+
+    const scalar h = cloud().grid().cells().spacing(vertical());
+    heights_ = dict.lookupOrDefault<Tuple2<scalar, scalar>>
+    (
+        "heights", Tuple2<scalar, scalar>(2*h, 4*h)
+    );
+
+    // A line needs two cells, the law of the wall one above z0
+    const scalar lowest = logLaw_ ? roughness_/30 : 0;
+    const scalar least = (logLaw_ ? 1 : 2)*h;
+    if
+    (
+        !(heights_.first() >= lowest)
+     || !(heights_.second() - heights_.first() >= least*(1 - SMALL))
+    )
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword heights is " << heights_ << '.' << nl
+            << "    Allowed for shearStress "
+            << (logLaw_ ? "logLaw" : "viscous") << ": two heights [m], the first >= " << lowest
+            << ", the second at least " << least << " higher"
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::mpm::erosionCriteria::readProfiles(const dictionary& dict)
+{
+    profiles_ = dict.lookupOrDefault<scalarList>("profiles", scalarList());
+
+    const scalar half = 0.5*cloud().grid().cells().spacing(along());
+    const scalar first = surfaces().coordinate(0) - half;
+    const scalar last =
+        surfaces().coordinate(surfaces().nStations() - 1) + half;
+    for (const scalar x : profiles_)
+    {
+        if (x >= first && x <= last) continue;
+
+        FatalIOErrorInFunction(dict)
+            << "keyword profiles: " << x << " is outside of the mesh." << nl
+            << "    Allowed: coordinates between " << first << " and " << last
+            << exit(FatalIOError);
+    }
+}
+
+
+Foam::label Foam::mpm::erosionCriteria::nearestStation(const scalar x) const
+{
+    const scalar h = cloud().grid().cells().spacing(along());
+    const label s = std::floor((x - surfaces().coordinate(0))/h + 0.5);
+    return max(label(0), min(surfaces().nStations() - 1, s));
+}
+
+
+Foam::mpm::erosionCriteria::profile
+Foam::mpm::erosionCriteria::findProfile() const
+{
+    auto alpha = [&](const word& name)
+    {
+        return surfaces().gather
+        (
+            mesh_.lookupObject<volScalarField>
+            (
+                IOobject::groupName("alpha", name)
+            )
+        );
+    };
+    auto velocity = [&](const word& name)
+    {
+        const volVectorField& U = mesh_.lookupObject<volVectorField>
+        (
+            IOobject::groupName("U", name)
+        );
+        List<scalarField> u(1, surfaces().gather(U, along()));
+        for (label d = 0; d < cloud().grid().nDim(); ++d)
+        {
+            if (d != along() && d != vertical())
+            {
+                u.append(surfaces().gather(U, d));
+            }
+        }
+        return u;
+    };
+    return profile
+    {
+        alpha(waterName()),
+        alpha(cloud().name()),
+        velocity(waterName()),
+        velocity(cloud().name())
+    };
+}
+
+
+Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
+(
+    const profile& u,
+    const columnSurfaces::heights& h,
+    const label column
+) const
+{
+    const scalar bed = h.bed[column], surface = h.water[column];
+    flow result{noNumber, noNumber, noNumber};
+    if (std::isnan(bed)) return result;
+
+    result.depth = surface > bed ? surface - bed : 0;
+    const scalar half = 0.5*cloud().grid().cells().spacing(vertical());
+
+    // Sums over the cells of the band; of the velocities by direction
+    label n = 0;
+    scalar sumL = 0, sumLL = 0;
+    scalarList sumU(u.water.size(), Zero), sumUL(u.water.size(), Zero);
+    scalar volume = 0, flux = 0;
+
+    for (label row = 0; row < surfaces().nRows(); ++row)
+    {
+        const label k = column*surfaces().nRows() + row;
+        const scalar z = surfaces().height(row) + half - bed;
+        if (z < 0 || z > result.depth || u.alphaWater[k] < 0) continue;
+
+        volume += u.alphaWater[k];
+        flux += u.alphaWater[k]*u.water[0][k];
+
+        if
+        (
+            z < heights_.first() || z > heights_.second()
+         || u.alphaWater[k] < 0.5
+        )
+        {
+            continue;
+        }
+        const scalar L = logLaw_ ? std::log(30*z/roughness_) : z;
+        ++n;
+        sumL += L;
+        sumLL += L*L;
+        forAll(sumU, d)
+        {
+            sumU[d] += u.water[d][k];
+            sumUL[d] += u.water[d][k]*L;
+        }
+    }
+    if (volume > 0) result.meanVelocity = flux/volume;
+    if (n < (logLaw_ ? 1 : 2)) return result;
+
+    // u = slope L, or with an intercept for the straight line
+    scalarList slope(sumU.size());
+    forAll(slope, d)
+    {
+        slope[d] =
+            logLaw_
+          ? sumUL[d]/sumLL
+          : (n*sumUL[d] - sumL*sumU[d])/(n*sumLL - sqr(sumL));
+    }
+    scalar size = 0;
+    for (const scalar s : slope) size += sqr(s);
+    size = std::sqrt(size);
+
+    const weaklyCompressibleNewtonian& fluid = water(dictionary::null).fluid();
+    result.shearVelocity =
+        sign(slope[0])
+       *(logLaw_ ? kappa*size : std::sqrt(fluid.mu()/fluid.rho0()*size));
+    return result;
+}
+
+
+void Foam::mpm::erosionCriteria::findMotion
+(
+    const scalarField& bed,
+    scalarField& speed,
+    scalarField& layer
+) const
+{
+    const lattice& cells = soil().grid().cells();
+    const scalar h = cells.spacing(vertical());
+    const scalar area = surfaces().area()*cells.thickness();
+
+    scalarField mass(bed.size(), Zero);
+    speed = scalarField(bed.size(), Zero);
+    layer = scalarField(bed.size(), Zero);
+    for (label p = 0; p < soil().size(); ++p)
+    {
+        scalar v = 0;
+        for (label d = 0; d < cells.nDim(); ++d) v += sqr(soil().v(d)[p]);
+        v = std::sqrt(v);
+
+        const label c = surfaces().column(soil().points().cell()[p]);
+        const scalar depth =
+            bed[c] - surfaces().heightOf(soil().x(vertical())[p]);
+        if (depth >= 0 && depth <= h)
+        {
+            mass[c] += soil().mass()[p];
+            speed[c] += soil().mass()[p]*v;
+        }
+        if (v > movingSpeed_) layer[c] += soil().volume(p)/area;
+    }
+    sumToMaster(mass);
+    sumToMaster(speed);
+    sumToMaster(layer);
+    forAll(mass, c) speed[c] = mass[c] > 0 ? speed[c]/mass[c] : noNumber;
+}
+
+
+void Foam::mpm::erosionCriteria::writeProfiles() const
+{
+    if (profiles_.empty()) return;
+
+    const columnSurfaces::heights h(find());
+    const profile u(findProfile());
+    if (!writeToFile() || !Pstream::master()) return;
+
+    const label nRows = surfaces().nRows(), n = surfaces().nStations();
+    const scalar half = 0.5*cloud().grid().cells().spacing(vertical());
+
+    const fileName directory(baseFileDir()/prefix_/mesh_.time().timeName());
+    mkDir(directory);
+    OFstream os(directory/"velocityProfiles.csv");
+    initStream(os);
+    os  << "x,z,height,water,soil,alphaWater,alphaSoil" << nl;
+    for (const scalar x : profiles_)
+    {
+        const label station = nearestStation(x);
+        meanOfNumbers bed;
+        for (label c = station; c < h.bed.size(); c += n) bed.add(h.bed[c]);
+
+        for (label row = 0; row < nRows; ++row)
+        {
+            // Of all columns across: volumes, and velocities weighted by them
+            scalar water = 0, soil = 0, waterFlux = 0, soilFlux = 0;
+            label columns = 0;
+            for (label c = station; c < h.bed.size(); c += n)
+            {
+                const label k = c*nRows + row;
+                if (u.alphaSoil[k] < 0) continue;
+                ++columns;
+                water += u.alphaWater[k];
+                soil += u.alphaSoil[k];
+                waterFlux += u.alphaWater[k]*u.water[0][k];
+                soilFlux += u.alphaSoil[k]*u.soil[0][k];
+            }
+            if (!columns) continue;
+
+            const scalar z = surfaces().height(row) + half;
+            os  << surfaces().coordinate(station) << ',' << z << ','
+                << z - bed.value() << ','
+                << (water > 0 ? waterFlux/water : noNumber) << ','
+                << (soil > 0 ? soilFlux/soil : noNumber) << ','
+                << water/columns << ',' << soil/columns << nl;
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::wordList Foam::mpm::erosionCriteria::keywords() const
+{
+    wordList names(bedTimeSeries::keywords());
+    names.append
+    (
+        wordList
+        ({
+            "criteria", "frictionAngle", "shearStress", "roughness", "heights",
+            "movingSpeed", "profiles"
+        })
+    );
+    return names;
+}
+
+
+void Foam::mpm::erosionCriteria::readEntries(const dictionary& dict)
+{
+    bedTimeSeries::readEntries(dict);
+    readCriteria(dict);
+    readHeights(dict);
+    readProfiles(dict);
+    movingSpeed_ = readBoundedOrDefault
+    (
+        dict, "movingSpeed", dimVelocity, 0.01, 0, GREAT, true
+    );
+}
+
+
+Foam::stringList Foam::mpm::erosionCriteria::description() const
+{
+    DynamicList<string> lines;
+    lines.append
+    (
+        string("Shear stress by ")
+      + (logLaw_ ? "the law of the rough wall, roughness "
+           + Foam::name(roughness_) + " m" : string("viscosity"))
+      + ", from water " + Foam::name(heights_.first()) + " to "
+      + Foam::name(heights_.second()) + " m above the bed"
+    );
+    forAll(criteria_, i)
+    {
+        const erosionCriterion& c = criteria_[i];
+        lines.append
+        (
+            names_[i] + ": critical shear stress "
+          + Foam::name(c.shearStress()) + " Pa, shear velocity "
+          + Foam::name(c.shearVelocity()) + " m/s, Shields number "
+          + Foam::name(c.shieldsNumber()) + ", stream power "
+          + Foam::name(c.streamPower()) + " W/m2"
+        );
+    }
+    lines.append("Units: m, m/s, Pa, W/m2; soil moves above "
+      + Foam::name(movingSpeed_) + " m/s");
+    return stringList(lines);
+}
+
+
+Foam::wordList Foam::mpm::erosionCriteria::columns() const
+{
+    wordList names
+    ({
+        "x", "bed", "depth", "meanVelocity", "shearVelocity", "shearStress",
+        "streamPower", "soilSpeed", "movingLayer"
+    });
+    for (const word& criterion : names_)
+    {
+        names.append(word(criterion + "Stress"));
+        names.append(word(criterion + "Exceeded"));
+    }
+    return names;
+}
+
+
+Foam::List<Foam::scalarList> Foam::mpm::erosionCriteria::rows() const
+{
+    const columnSurfaces::heights h(find());
+    const profile u(findProfile());
+    const scalar rho = water(dictionary::null).fluid().rho0();
+
+    scalarField speed, layer;
+    findMotion(h.bed, speed, layer);
+
+    const label n = surfaces().nStations();
+    List<scalarList> lines(n);
+    forAll(lines, station)
+    {
+        // Numbers of the columns across; the first is the coordinate
+        List<meanOfNumbers> means(columns().size());
+        for (label c = station; c < h.bed.size(); c += n)
+        {
+            const flow f(findFlow(u, h, c));
+            const scalar stress = rho*f.shearVelocity*mag(f.shearVelocity);
+
+            label i = 1;
+            for
+            (
+                const scalar s :
+                {
+                    h.bed[c], f.depth, f.meanVelocity, f.shearVelocity, stress,
+                    mag(stress*f.meanVelocity), speed[c],
+                    std::isnan(h.bed[c]) ? noNumber : layer[c]
+                }
+            )
+            {
+                means[i++].add(s);
+            }
+            for (const erosionCriterion& criterion : criteria_)
+            {
+                const scalar critical = criterion.shearStress();
+                means[i++].add(critical);
+                means[i++].add
+                (
+                    std::isnan(stress) ? noNumber
+                  : mag(stress) > critical ? 1 : 0
+                );
+            }
+        }
+        lines[station].setSize(means.size());
+        forAll(means, i) lines[station][i] = means[i].value();
+        lines[station][0] = surfaces().coordinate(station);
+    }
+    return lines;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::erosionCriteria::erosionCriteria
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    bedTimeSeries(name, runTime, dict, "erosionCriteria"),
+    logLaw_(true),
+    roughness_(0),
+    heights_(0, 0),
+    movingSpeed_(0)
+{
+    start(dict);
+    writeProfiles();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::mpm::erosionCriteria::execute()
+{
+    if (mesh_.time().writeTime()) writeProfiles();
+    return true;
+}
+
+// ************************************************************************* //
