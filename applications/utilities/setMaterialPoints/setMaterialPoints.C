@@ -20,6 +20,20 @@ Description
     Runs in serial (before decomposePar) or in parallel (after it, without
     points), with the same points in both.
 
+    With \c -weights it places nothing. It counts the points that are there at
+    the start time (startFrom latestTime: later in a run, too) and writes the
+    cost of each cell, \c pointWeights, by which decomposePar gives each rank
+    the same work. A point of water counts 1, one of soil \c -soilWeight
+    (default 3). In system/decomposeParDict:
+
+    \verbatim
+        method          hierarchical;   // or simple
+        weightField     pointWeights;
+    \endverbatim
+
+    \c simple divides each direction by itself: with more than one of them its
+    parts are equal in rows and columns only.
+
 Usage
     \verbatim
     water
@@ -521,6 +535,41 @@ static void setSoilState
 }
 
 
+//- Write the cost of each cell by its points
+static void writeWeights
+(
+    const fvMesh& mesh,
+    mpm::materialPointSystem& points,
+    const scalar soilWeight
+)
+{
+    volScalarField weights
+    (
+        IOobject("pointWeights", mesh.time().timeName(), mesh),
+        mesh,
+        dimensionedScalar(dimless, Zero)
+    );
+    for (const mpm::materialPointCloud& cloud : points.clouds())
+    {
+        const scalar weight = (&cloud == points.soilPtr() ? soilWeight : 1);
+        for (label p = 0; p < cloud.size(); ++p)
+        {
+            weights[cloud.grid().meshCell(cloud.points().cell()[p])] += weight;
+        }
+        Info<< "Cloud " << cloud.name() << ": " << cloud.globalSize()
+            << " points of weight " << weight << nl;
+    }
+    if (!weights.write())
+    {
+        FatalErrorInFunction
+            << "cannot write " << weights.objectPath() << "; is the disk full?"
+            << exit(FatalError);
+    }
+    Info<< nl << "Written " << weights.name() << " to "
+        << mesh.time().timePath() << nl << nl << "End\n" << endl;
+}
+
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -528,6 +577,18 @@ int main(int argc, char *argv[])
     argList::addNote
     (
         "Fill regions of the mesh with material points"
+    );
+    argList::addBoolOption
+    (
+        "weights",
+        "Place nothing; write the cost of the cells, pointWeights, for the"
+        " weightField of decomposePar"
+    );
+    argList::addOption
+    (
+        "soilWeight",
+        "number",
+        "Cost of a point of soil over that of one of water (default: 3)"
     );
 
     #include "setRootCase.H"
@@ -550,6 +611,21 @@ int main(int argc, char *argv[])
     mpm::materialPointSystem points(mesh);
     const mpm::lattice& cells = points.grid().cells();
     const bool strict = points.settings().strictKeywords;
+
+    if (args.found("weights"))
+    {
+        // In tutorials/wallJet a point of soil costs 3.2 times one of water
+        const scalar soilWeight = args.getOrDefault<scalar>("soilWeight", 3);
+        if (!(soilWeight > 0))
+        {
+            FatalErrorInFunction
+                << "option -soilWeight is " << soilWeight << '.' << nl
+                << "    Allowed: a number > 0" << exit(FatalError);
+        }
+        points.read(runTime);
+        writeWeights(mesh, points, soilWeight);
+        return 0;
+    }
 
     const IOdictionary setDict
     (

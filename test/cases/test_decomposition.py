@@ -1,0 +1,95 @@
+"""Ranks get the same work: decomposePar with weights of setMaterialPoints."""
+
+import re
+
+import numpy as np
+import pytest
+
+from mpmfoam.foamFile import readList
+
+from caseBuilder import Setup, box, damBreak, foamText, header, hydrostatic
+from test_wallJet import CloudPoints
+
+
+def decompose(case, ranks, n, method, weights, times=None):
+    entries = {"numberOfSubdomains": ranks, "method": method,
+               f"{method}Coeffs": {"n": n, "delta": 0.001}}
+    if method == "hierarchical":
+        entries["hierarchicalCoeffs"]["order"] = "xyz"
+    if weights:
+        entries["weightField"] = "pointWeights"
+    (case.path/"system"/"decomposeParDict").write_text(
+        header("decomposeParDict") + foamText(entries))
+    case.run("decomposePar", "-force", *(["-latestTime"] if times else []))
+
+
+def imbalance(case, time, weight):
+    """Largest work of a rank over the mean"""
+    work = []
+    for processor in case.case.processors:
+        files = {cloud: processor/time/"lagrangian"/cloud/"id"
+                 for cloud in case.setup.clouds}
+        # Without points a rank has no file
+        work.append(sum(weight[cloud]*len(readList(file))
+                        for cloud, file in files.items() if file.is_file()))
+    figure = max(work)*len(work)/sum(work)
+    print("work of the ranks:", work)
+    return figure
+
+
+@pytest.mark.parametrize("ranks, n, method", [
+    (2, (2, 1, 1), "simple"), (4, (4, 1, 1), "simple"),
+    (4, (2, 2, 1), "hierarchical")])
+def testDamBreak(tmp_path, figures, ranks, n, method):
+    """A column in two fifths of the box"""
+    case = damBreak(h=0.01).write(tmp_path/"case").prepare()
+    case.run("setMaterialPoints", "-weights")
+    weight = {"water": 1}
+    found = {}
+    for weights in [False, True]:
+        decompose(case, ranks, n, method, weights)
+        found[weights] = imbalance(case, "0", weight)
+    figures.atLeast("without weights: largest work over the mean",
+                    found[False], 1.5)
+    # A column of cells is 5 % of the points
+    figures.atMost("with weights", found[True], 1.2 if ranks > 2 else 1.05)
+
+
+def testSoil(tmp_path, figures):
+    """Soil costs more: its weight, and a later time of the run"""
+    case = Setup(
+        cells=(40, 10), h=0.01, points=2, energy=False,
+        regions={"water": hydrostatic((0, 0), (0.2, 0.05))},
+        soilRegions={"bed": box((0.2, 0), (0.3, 0.05), stress="geostatic")},
+    ).until(0.01).write(tmp_path/"case").prepare()
+    case.solve()
+    time = case.times[-1]
+    result = case.run("setMaterialPoints", "-weights", "-soilWeight", "4")
+    figures.contains("log", re.search(
+        "Cloud soil: .* of weight 4", result.text), "soil of weight 4")
+
+    cells = case.case.field(time, "pointWeights")
+    number = {c: len(CloudPoints(case, c, time).id) for c in case.setup.clouds}
+    figures.equal("sum of the weights", float(np.sum(cells)),
+                  float(number["water"] + 4*number["soil"]))
+    weight = {"water": 1, "soil": 4}
+    found = {}
+    for weights in [False, True]:
+        decompose(case, 2, (2, 1, 1), "simple", weights, times=time)
+        found[weights] = imbalance(case, time, weight)
+    figures.atLeast("without weights: largest work over the mean",
+                    found[False], 1.1)
+    figures.atMost("with weights", found[True], 1.05)
+    case.change(control={"endTime": 0.02})
+    case.solve(ranks=2)
+    figures.holds("goes on with them", float(case.times[-1]) > float(time),
+                  case.times[-1])
+
+
+def testBadWeight(tmp_path, figures):
+    case = damBreak().write(tmp_path/"case").prepare()
+    result = case.run("setMaterialPoints", "-weights", "-soilWeight", "-1",
+                      check=False)
+    figures.equal("exit status", result.status, 1)
+    figures.holds("named", "soilWeight" in result.text
+                  and "> 0" in result.text)
