@@ -135,7 +135,8 @@ void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
         FatalIOErrorInFunction(dict)
             << "keyword heights is " << heights_ << '.' << nl
             << "    Allowed for shearStress "
-            << (logLaw_ ? "logLaw" : "viscous") << ": two heights [m], the first >= " << lowest
+            << (logLaw_ ? "logLaw" : "viscous")
+            << ": two heights [m], the first >= " << lowest
             << ", the second at least " << least << " higher"
             << exit(FatalIOError);
     }
