@@ -8,6 +8,7 @@ License
 #include "label.H"
 #include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 
 using namespace Foam;
@@ -71,8 +72,7 @@ struct batch
     static constexpr int size = (dim == 2 ? T*T : T*T*T);
 
     lanes f[dim];
-    nodeVector value[nLanes];
-    nodeVector slope[dim][nLanes];
+    pointRecord<dim> given[nLanes];
     nodeVector flux[dim][nLanes];
     nodeVector tile[size];
 
@@ -97,10 +97,89 @@ struct batch
         {
             for (int c = 0; c < 4; ++c) v[c] = any(random);
         };
-        for (nodeVector& v : value) fill(v);
-        for (auto& direction : slope) for (nodeVector& v : direction) fill(v);
+        for (pointRecord<dim>& r : given)
+        {
+            fill(r.value);
+            for (nodeVector& v : r.slope) fill(v);
+        }
         for (auto& direction : flux) for (nodeVector& v : direction) fill(v);
         for (nodeVector& v : tile) fill(v);
+    }
+
+    //- The points in the middle of a block, as production has them
+    static constexpr int first = 5;
+
+    std::unique_ptr<stencil<Shape, dim>> weights() const
+    {
+        auto s = std::make_unique<stencil<Shape, dim>>();
+        s->set(first, f);
+        return s;
+    }
+
+    //- Records of the block: values and slopes, or fluxes
+    std::array<pointRecord<dim>, first + nLanes> records
+    (
+        const bool fluxes = false
+    ) const
+    {
+        std::array<pointRecord<dim>, first + nLanes> r{};
+        for (int l = 0; l < nLanes; ++l)
+        {
+            if (fluxes)
+            {
+                for (int d = 0; d < dim; ++d)
+                {
+                    r[first + l].slope[d] = flux[d][l];
+                }
+            }
+            else r[first + l] = given[l];
+        }
+        return r;
+    }
+
+    //- Scatter n points with fluxes, as the kernels do
+    void scatterForce(nodalSums<Shape, dim>& sums, const int n) const
+    {
+        const auto s = weights();
+        auto r = records();
+        auto fluxes = records(true);
+        if constexpr (stencil<Shape, dim>::moments)
+        {
+            for (int l = first; l < first + n; ++l)
+            {
+                for (int d = 0; d < dim; ++d)
+                {
+                    r[l].slope[d] += s->slopeScale*fluxes[l].slope[d];
+                }
+            }
+        }
+        else
+        {
+            s->scatterFlux(sums, first, first + n, fluxes.data());
+        }
+        s->scatter(sums, first, first + n, r.data());
+    }
+
+    //- Interpolate a tile: values and gradients
+    void gather
+    (
+        lanes (&value)[dim + 1],
+        lanes (&gradient)[dim + 1][dim]
+    ) const
+    {
+        const auto s = weights();
+        std::array<pointRecord<dim>, first + nLanes> r;
+        s->gather
+            (nodalValues<Shape, dim>(tile), first, first + nLanes, r.data());
+        for (int l = 0; l < nLanes; ++l)
+        for (int c = 0; c < dim + 1; ++c)
+        {
+            value[c][l] = r[first + l].value[c];
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[c][d][l] = s->slopeScale*r[first + l].slope[d][c];
+            }
+        }
     }
 
     //- Coordinate of a node of the tile in cells from the origin of the tile
@@ -179,8 +258,10 @@ TEST_CASE("stencil: scatter against the dense sum")
         for (int trial = 0; trial < nTrials; ++trial)
         {
             batch<Shape, dim> b(random);
-            const stencil<Shape, dim> s(b.f);
-            const label n = 1 + trial % nLanes;
+            const auto s = b.weights();
+            const auto records = b.records();
+            const int first = b.first;
+            const int n = 1 + trial % nLanes;
 
             auto dense = [&](const bool withSlope, const bool withFlux)
             {
@@ -188,10 +269,10 @@ TEST_CASE("stencil: scatter against the dense sum")
                 for (int l = 0; l < n; ++l)
                 for (int t = 0; t < b.size; ++t)
                 {
-                    nodeVector v = b.value[l];
+                    nodeVector v = b.given[l].value;
                     for (int k = 0; k < dim && withSlope; ++k)
                     {
-                        v += (b.x(t, k) - b.f[k][l])*b.slope[k][l];
+                        v += (b.x(t, k) - b.f[k][l])*b.given[l].slope[k];
                     }
                     sum.tile[t] += b.N(l, t)*v;
                     for (int k = 0; k < dim && withFlux; ++k)
@@ -207,21 +288,24 @@ TEST_CASE("stencil: scatter against the dense sum")
             {
                 nodeVector tile[b.size];
                 sums.finish(tile);
-                for (int t = 0; t < b.size; ++t) found.tile[t] = b.tile[t] + tile[t];
+                for (int t = 0; t < b.size; ++t)
+                {
+                    found.tile[t] = b.tile[t] + tile[t];
+                }
             };
             nodalSums<Shape, dim> plainSums, slopedSums, forceSums;
 
-            s.scatter(plainSums, n, b.value);
+            s->scatterValues(plainSums, first, first + n, records.data());
             finish(plainSums);
             plain = std::max
                 (plain, difference(found.tile, dense(false, false).tile));
 
-            s.scatter(slopedSums, n, b.value, b.slope);
+            s->scatter(slopedSums, first, first + n, records.data());
             finish(slopedSums);
             sloped = std::max
                 (sloped, difference(found.tile, dense(true, false).tile));
 
-            s.scatterForce(forceSums, n, b.value, found.slope, b.flux);
+            b.scatterForce(forceSums, n);
             finish(forceSums);
             force = std::max
                 (force, difference(found.tile, dense(true, true).tile));
@@ -229,15 +313,23 @@ TEST_CASE("stencil: scatter against the dense sum")
             if constexpr (dim == 3)
             {
                 lanes scalars;
-                for (int l = 0; l < nLanes; ++l) scalars[l] = b.value[l][0];
+                for (int l = 0; l < nLanes; ++l)
+                {
+                    scalars[l] = b.given[l].value[0];
+                }
                 nodalSums<Shape, 2> rows;
-                s.scatterScalar(rows, n, scalars);
+                nodeVector given[b.first + nLanes];
+                s->scalarRows(first, scalars, given + first);
+                s->scatterScalar(rows, first, first + n, given);
                 nodeVector row[Shape::width*Shape::width];
                 rows.finish(row);
                 for (int t = 0; t < b.size; ++t)
                 {
                     scalar sum = row[t/Shape::width][t % Shape::width];
-                    for (int l = 0; l < n; ++l) sum -= b.N(l, t)*b.value[l][0];
+                    for (int l = 0; l < n; ++l)
+                    {
+                        sum -= b.N(l, t)*b.given[l].value[0];
+                    }
                     plain = std::max(plain, std::abs(sum));
                 }
             }
@@ -261,9 +353,8 @@ TEST_CASE("stencil: gather against the dense sum")
         for (int trial = 0; trial < nTrials; ++trial)
         {
             batch<Shape, dim> b(random);
-            const stencil<Shape, dim> s(b.f);
             lanes value[dim + 1], gradient[dim + 1][dim];
-            s.template gather<dim + 1>(b.tile, value, gradient);
+            b.gather(value, gradient);
 
             for (int l = 0; l < nLanes; ++l)
             for (int c = 0; c < dim + 1; ++c)
@@ -281,26 +372,6 @@ TEST_CASE("stencil: gather against the dense sum")
                     }
                     gradients = std::max
                         (gradients, std::abs(gradient[c][k][l] - slope));
-                }
-            }
-
-            // Fewer gradients, same numbers
-            lanes some[dim + 1], slopes[dim + 1][dim];
-            s.template gather<dim>(b.tile, some, slopes);
-            for (int l = 0; l < nLanes; ++l)
-            {
-                for (int c = 0; c < dim + 1; ++c)
-                {
-                    values = std::max
-                        (values, std::abs(some[c][l] - value[c][l]));
-                }
-                for (int c = 0; c < dim; ++c)
-                for (int k = 0; k < dim; ++k)
-                {
-                    gradients = std::max
-                    (
-                        gradients, std::abs(slopes[c][k][l] - gradient[c][k][l])
-                    );
                 }
             }
         }
@@ -322,16 +393,17 @@ TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
         for (int trial = 0; trial < nTrials; ++trial)
         {
             batch<Shape, dim> b(random);
-            const stencil<Shape, dim> s(b.f);
-
             batch<Shape, dim> found(b);
             nodalSums<Shape, dim> sumsOfTile;
-            s.scatter(sumsOfTile, nLanes, b.value, b.slope);
+            b.weights()->scatter
+            (
+                sumsOfTile, b.first, b.first + nLanes, b.records().data()
+            );
             sumsOfTile.finish(found.tile);
 
             batch<Shape, dim> force(b);
             nodalSums<Shape, dim> forceNodes;
-            s.scatterForce(forceNodes, nLanes, b.value, force.slope, b.flux);
+            b.scatterForce(forceNodes, nLanes);
             forceNodes.finish(force.tile);
 
             for (int c = 0; c < 4; ++c)
@@ -339,8 +411,8 @@ TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
                 scalar sum = 0, forceSum = 0;
                 for (int l = 0; l < nLanes; ++l)
                 {
-                    sum -= b.value[l][c];
-                    forceSum -= b.value[l][c];
+                    sum -= b.given[l].value[c];
+                    forceSum -= b.given[l].value[c];
                 }
                 for (int t = 0; t < b.size; ++t)
                 {
@@ -361,7 +433,8 @@ TEST_CASE("stencil: scatter conserves mass, momentum and its moment")
                         const scalar D =
                             Shape::gradientScale > 0
                           ? 1/Shape::gradientScale : f*(1 - f);
-                        moment -= f*b.value[l][c] + D*b.slope[k][l][c];
+                        moment -= f*b.given[l].value[c]
+                          + D*b.given[l].slope[k][c];
                         forceMoment -= b.flux[k][l][c];
                     }
                     for (int t = 0; t < b.size; ++t)
@@ -399,8 +472,6 @@ TEST_CASE("stencil: gather reproduces linear fields")
         for (int trial = 0; trial < nTrials; ++trial)
         {
             batch<Shape, dim> b(random);
-            const stencil<Shape, dim> s(b.f);
-
             scalar a[dim + 1], A[dim + 1][dim];
             for (int c = 0; c < dim + 1; ++c)
             {
@@ -415,7 +486,7 @@ TEST_CASE("stencil: gather reproduces linear fields")
             }
 
             lanes value[dim + 1], gradient[dim + 1][dim];
-            s.template gather<dim + 1>(b.tile, value, gradient);
+            b.gather(value, gradient);
             for (int l = 0; l < nLanes; ++l)
             for (int c = 0; c < dim + 1; ++c)
             {
