@@ -202,7 +202,7 @@ TEST_CASE("soil models: wave speed after a compression from no stress")
             name + "wave speed squared, relative",
             mag
             (
-                m->compressedWaveSpeedSqr(strain, e)
+                m->waveSpeedSqrGrowth(strain, e)
                /m->waveSpeedSqr(s.p(), e)
               - 1
             ),

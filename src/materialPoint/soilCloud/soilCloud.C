@@ -340,7 +340,7 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT
             sqr(deltaT)
            *(
                 sqr(waveSpeed)
-              + model_->compressedWaveSpeedSqr(compressionRate_*deltaT, e)
+              + model_->waveSpeedSqrGrowth(compressionRate_*deltaT, e)
             )
           > sqr(h);
     };

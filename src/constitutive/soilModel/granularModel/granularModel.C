@@ -149,12 +149,14 @@ Foam::scalar Foam::mpm::granularModel::waveSpeedSqr
 }
 
 
-Foam::scalar Foam::mpm::granularModel::compressedWaveSpeedSqr
+Foam::scalar Foam::mpm::granularModel::waveSpeedSqrGrowth
 (
     const scalar compression,
     const scalar voidRatio
 ) const
 {
+    // That from no stress: what stress there is comes on top (exact at
+    // n = 0.5, where the wave speed squared is linear in the strain)
     return elasticity_.waveSpeedSqr
     (
         elasticity_.compressedModulus(compression, voidRatio), voidRatio
