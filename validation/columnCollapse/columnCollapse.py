@@ -3,9 +3,8 @@
 height of the deposit and time against the scalings of Lube et al. and of
 Lajeunesse et al., on two grids.
 
-The deposit ends where it is thinner than one grain; grains that jumped ahead are
-no deposit. Beside it, where 99.5 % of the grains lie behind, which leaves out
-the tip."""
+The front is where 99.5 % of the grains lie behind; a few that jump ahead are
+no deposit. Beside it the toe, where the deposit becomes thinner than a grain."""
 
 import sys
 from pathlib import Path
@@ -106,7 +105,7 @@ def steepest(profile, h):
 
 def evaluate(done, results):
     out = {}
-    table = {k: [] for k in ["a", "cellsPerL0", "runout", "runout995", "lube",
+    table = {k: [] for k in ["a", "cellsPerL0", "runout", "runoutToe", "lube",
                              "lajeunesse", "errorToNearer", "height",
                              "lubeHeight", "slopeDeg", "tRest", "vRmsEnd",
                              "restSpeed", "separatedEnd", "massError",
@@ -127,11 +126,11 @@ def evaluate(done, results):
         regime = case.cloudField(times[-1], "soil", "regime")
         m0, m1 = (case.cloudField(t, "soil", "mass").sum()
                   for t in (times[0], times[-1]))
-        runout = (toe(case, times[-1], h) - L0)/L0
+        runout = (course[-1, 1] - L0)/L0
         nearer = min([lube(a), lajeunesse(a)], key=lambda s: abs(runout/s - 1))
         profile = surface(x, h)
         moved = np.abs(course[:, 1] - course[-1, 1]) > 0.02*L0
-        row = [a, n, runout, (course[-1, 1] - L0)/L0, lube(a), lajeunesse(a), runout/nearer - 1,
+        row = [a, n, runout, (toe(case, times[-1], h) - L0)/L0, lube(a), lajeunesse(a), runout/nearer - 1,
                profile.max()/L0, lubeHeight(a), steepest(profile, h),
                course[moved, 0].max() if moved.any() else 0,
                course[-1, 2], restSpeed(case, times), (regime == 3).mean(), m1/m0 - 1,
