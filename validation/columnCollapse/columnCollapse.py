@@ -4,7 +4,7 @@ height of the deposit and time against the scalings of Lube et al. and of
 Lajeunesse et al., on two grids.
 
 The front is where 99.5 % of the grains lie behind; a few that jump ahead are
-no deposit. Beside it the toe, where the deposit becomes thinner than a grain."""
+no deposit. Beside it the toe, where the deposit is thinner than a grain."""
 
 import sys
 from pathlib import Path
@@ -130,10 +130,12 @@ def evaluate(done, results):
         nearer = min([lube(a), lajeunesse(a)], key=lambda s: abs(runout/s - 1))
         profile = surface(x, h)
         moved = np.abs(course[:, 1] - course[-1, 1]) > 0.02*L0
-        row = [a, n, runout, (toe(case, times[-1], h) - L0)/L0, lube(a), lajeunesse(a), runout/nearer - 1,
+        row = [a, n, runout, (toe(case, times[-1], h) - L0)/L0, lube(a),
+               lajeunesse(a), runout/nearer - 1,
                profile.max()/L0, lubeHeight(a), steepest(profile, h),
                course[moved, 0].max() if moved.any() else 0,
-               course[-1, 2], restSpeed(case, times), (regime == 3).mean(), m1/m0 - 1,
+               course[-1, 2], restSpeed(case, times), (regime == 3).mean(),
+               m1/m0 - 1,
                run.log.wallTime]
         for key, value in zip(table, row):
             table[key].append(value)
