@@ -1,5 +1,5 @@
-"""Soil alone: a column that fails, flows and comes to rest; beds and slopes that
-stay; flow down an incline; a block on a wall with friction."""
+"""Soil alone: a column that fails, flows and comes to rest; beds and slopes
+that stay; flow down an incline; a block on a wall with friction."""
 
 import numpy as np
 import pytest
