@@ -39,7 +39,8 @@ def fromLog(path):
 
 def fromPoints(case):
     """Points and mass of each cloud at the end. massError: inside + left
-    over what was there at the start, the worst of the clouds."""
+    over what was there at the start and has entered, the worst of the
+    clouds."""
     times = case.times()
     out = {}
     clouds = [c for c in ["water", "soil"] if case.hasCloud(times[-1], c)]
@@ -50,7 +51,8 @@ def fromPoints(case):
         inside, left = [], []
         for time in (with_[0], with_[-1]):
             inside.append(case.cloudField(time, cloud, "mass"))
-            left.append(case.cloudState(time, cloud)["leftMass"])
+            left.append(case.cloudState(time, cloud)["leftMass"]
+                        - case.enteredMass(time, cloud))
         # A cloud that is empty at first has files at later times only: of
         # what came in by inlets massBalance knows
         start = inside[0].sum() + left[0]

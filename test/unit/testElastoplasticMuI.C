@@ -10,6 +10,9 @@ Description
 
 #include "figures.H"
 #include "soilElement.H"
+#include "tensor.H"
+#include "symmTensor.H"
+#include "transform.H"
 #include "elementTest.H"
 #include "elastoplasticMuI.H"
 #include "adaptiveSubstepping.H"

@@ -70,6 +70,19 @@ class Case:
         return {key: float(value) for key, value in re.findall(
             r"(\w+)\s+([-+0-9.e]+);", text)}
 
+    def enteredMass(self, time, cloud):
+        """Mass that came in through the inlets of a cloud, from the state
+        file (which has sums over all ranks)"""
+        for root in [self.path, *self.processors]:
+            path = root/time/"uniform"/"materialPoints"
+            if path.is_file():
+                break
+        # The cloud's dictionary ends where a line is nothing but a brace
+        found = re.search(rf"^{cloud}\s*\n\{{(.*?)^\}}", path.read_text(),
+                          re.DOTALL | re.MULTILINE)
+        return sum(float(m) for m in re.findall(
+            r"\benteredMass\s+([-+0-9.e]+);", found[1]))
+
     def field(self, time, name):
         """The internal field of a vol<Type>Field, e.g. alpha.water"""
         return np.concatenate(
