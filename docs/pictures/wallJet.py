@@ -12,7 +12,7 @@ from pathlib import Path
 from PIL import Image
 
 HERE = Path(__file__).resolve().parent
-TIMES = ["0.1", "0.5", "1", "2"]
+TIMES = ["0.1", "0.5", "1", "2.5"]
 # Fewer would paint fast water in the colour of sand
 COLOURS = 220
 
