@@ -580,7 +580,12 @@ void Foam::mpm::materialPointSystem::stop(Time& runTime)
 void Foam::mpm::materialPointSystem::particlesToGrid()
 {
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
-    if (soil_) soil_->findStrainRates();
+    if (soil_)
+    {
+        cost_.start("soil: strain rates");
+        soil_->findStrainRates();
+        cost_.stop();
+    }
     if (interaction_.valid()) interaction_->mixture();
     fieldsCurrent_ = false;
 }

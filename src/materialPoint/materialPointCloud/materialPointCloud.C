@@ -635,14 +635,13 @@ void Foam::mpm::materialPointCloud::enter
 }
 
 
-void Foam::mpm::materialPointCloud::startOpenBoundaries()
+void Foam::mpm::materialPointCloud::setInflow(const scalar before)
 {
     for (inlet& in : open_->inlets())
     {
         if (in.slowness() == 0) in.setSlowness(slowness(in));
     }
-    // Of the start of the step: its length is not known yet
-    open_->setSpeeds(time().value(), boundary_);
+    open_->setSpeeds(time().value() - before, boundary_);
 }
 
 
