@@ -142,7 +142,7 @@ def runs():
             injection("noRecycling", recycle="no"),
             *[held(k) for k in ["constant", "table", "discharge",
                                 "dischargeTable"]],
-            channel(0.02), channel(0.01), channel(0.02/3, endTime=10),
+            channel(0.02), channel(0.01), channel(0.02/3),
             channel(0.005, optional=True)]
 
 
