@@ -45,7 +45,7 @@ def weightStress():
 
 def criteria():
     """Critical stress of the paper's criteria [Pa]: rho u*^2 of Example 3's
-    sand, its formulas as they are right (spec 3)"""
+    sand, van Rijn with his published exponent"""
     table = reference.data("table4_check.csv")
     row = list(table["example"]).index("Ex3")
     return {name: RHO*table[column][row]**2 for name, column in [

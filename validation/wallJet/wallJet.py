@@ -264,7 +264,7 @@ def draw(done, courses, table, results):
         keep = (x > 0.65) & (x < 1.3)
         panels[2, 0].plot(x[keep], 1e3*(bed[keep] - BED), label=f"{time} s")
     panels[2, 0].set(xlabel="x [m]", ylabel="bed [mm]",
-                     title=f"profiles, {shown[-1]} (paper: Fig. 16)")
+                     title=f"profiles, {shown[-1]} (paper: Fig. 13)")
     for name in shown:
         x, bed = profile(done[name], "2.5")
         keep = (x > 0.65) & (x < 1.3)

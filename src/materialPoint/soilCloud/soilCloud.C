@@ -332,7 +332,10 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT
 ) const
 {
     const scalar h = courant*grid_.cells().minSpacing();
-    const scalar e = min(minVoidRatio_, model_->e0());
+
+    // Of all ranks, which take the same step
+    const scalar e =
+        min(returnReduce(minVoidRatio_, minOp<scalar>()), model_->e0());
 
     auto tooLarge = [&](const scalar deltaT)
     {
@@ -364,10 +367,13 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT
 
 Foam::scalar Foam::mpm::soilCloud::viscosity() const
 {
+    // Of all ranks, which take the same step
+    const scalar e =
+        min(returnReduce(minVoidRatio_, minOp<scalar>()), model_->e0());
     return max
     (
-        viscosity_,
-        model_->viscosity(shearRate_, min(minVoidRatio_, model_->e0()))
+        returnReduce(viscosity_, maxOp<scalar>()),
+        model_->viscosity(shearRate_, e)
     );
 }
 
