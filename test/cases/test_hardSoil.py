@@ -174,14 +174,15 @@ def testSoilFarFromWater(tmp_path, figures):
 
 
 def testImpactOnTwoRanks(tmp_path, figures):
-    """A column that falls on a floor, one half denser and on another rank:
-    both ranks take one and the same step, else they would not meet again"""
+    """A column that hits a floor, one half denser and on another rank: both
+    ranks take one and the same step, that of a serial run. (It starts on the
+    floor: in free fall rounding errors decide which grains touch.)"""
     setup = scene(
         tmp_path, cells=(16, 30), regions={}, functions={},
         soilRegions={
-            "dense": box((0.03, 0.1), (0.08, 0.2), voidRatio=0.6,
+            "dense": box((0.03, 0), (0.08, 0.1), voidRatio=0.6,
                          velocity=(0, -2, 0)),
-            "loose": box((0.08, 0.1), (0.13, 0.2), voidRatio=0.8,
+            "loose": box((0.08, 0), (0.13, 0.1), voidRatio=0.8,
                          velocity=(0, -2, 0))}).until(0.06, 0.06)
     serial = setup.write(tmp_path/"serial").prepare()
     parallel = serial.clone(tmp_path/"parallel")
@@ -191,11 +192,9 @@ def testImpactOnTwoRanks(tmp_path, figures):
     parallel.solve(ranks=2)
     figures.atLeast("steps that the impact limits, logged",
                     serial.log.limiters["impact"], 1)
-    # The number of steps is not the same as in serial: at nodes on the margin
-    # of a rank a part of the gradient is missing
-    figures.show("steps, serial and two ranks",
-                 (serial.log.stepCount, parallel.log.stepCount))
+    figures.equal("steps, serial and two ranks",
+                  parallel.log.stepCount, serial.log.stepCount)
     heights = [c.case.cloudField("0.06", "soil", "x")[:, 1].mean()
                for c in (serial, parallel)]
     figures.atMost("difference of the mean height over h",
-                   abs(heights[1] - heights[0])/0.01, 0.1)
+                   abs(heights[1] - heights[0])/0.01, 1e-6)

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "materialPointCloud.H"
+#include "dictionaryEntries.H"
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
@@ -193,7 +194,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     const settings& control,
     costMeter& cost,
     const vector& g,
-    const nodeBoundary::cornerType corners,
+    const word& corners,
     const bool soil
 )
 :
@@ -240,7 +241,16 @@ Foam::mpm::materialPointCloud::materialPointCloud
     (
         inflowOutflow::New(dict, grid, U_, g, soil, control.strictKeywords)
     ),
-    boundary_(grid, U_, corners, inflowOutflow::zones(open_)),
+    boundary_
+    (
+        grid,
+        U_,
+        readChoiceOrDefault(dict, "corners", corners, {"slip", "stick"})
+     == "slip"
+      ? nodeBoundary::slipCorners
+      : nodeBoundary::stickCorners,
+        inflowOutflow::zones(open_)
+    ),
     order_(grid),
     coupling_(nullptr),
     extremeLeft_(false),

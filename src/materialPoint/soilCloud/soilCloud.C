@@ -125,8 +125,7 @@ Foam::mpm::soilCloud::soilCloud
 :
     materialPointCloud
     (
-        name, mesh, grid, dict, control, cost, g, nodeBoundary::stickCorners,
-        true
+        name, mesh, grid, dict, control, cost, g, "stick", true
     ),
     model_(soilModel::New(dict, control.strictKeywords)),
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
@@ -195,6 +194,7 @@ void Foam::mpm::soilCloud::checkDictionary
             "transfer",
             "apicRate",
             "flipDampingRate",
+            "corners",
             "inflowOutflow"
         },
         strictKeywords
@@ -290,33 +290,44 @@ void Foam::mpm::soilCloud::findStrainRates()
     const label dim = grid_.nDim();
     const lattice& cells = grid_.cells();
 
+    label toUpperCorner = 0;
+    for (label d = 0; d < dim; ++d) toUpperCorner += grid_.stride(d);
+
     compressionRate_ = 0;
     scalar shearSqr = 0;
 
+    // By own cells, whose corners are all known: node i is a lower corner of
+    // cell i
     for (const auto& range : order_.nodeRanges())
     {
-        for (label i = range.first; i < range.second; ++i)
+        for (label cell = range.first; cell < range.second; ++cell)
         {
-            if (!(nodes_.momentum[i][dim] > 0)) continue;
+            if (!grid_.ownCell(cell)) continue;
 
-            // One-sided: no gradient at a point is larger than the largest
-            tensor L(Zero);
-            for (label d = 0; d < dim; ++d)
+            // One-sided at two opposite corners: no gradient at a point is
+            // larger than the largest
+            for (const label side : {1, -1})
             {
-                const label j = i + grid_.stride(d);
-                if (j >= grid_.nNodes() || !(nodes_.momentum[j][dim] > 0))
+                const label i = side > 0 ? cell : cell + toUpperCorner;
+                if (!(nodes_.momentum[i][dim] > 0)) continue;
+
+                tensor L(Zero);
+                for (label d = 0; d < dim; ++d)
                 {
-                    continue;
+                    const label j = i + side*grid_.stride(d);
+                    if (!(nodes_.momentum[j][dim] > 0)) continue;
+
+                    for (label c = 0; c < dim; ++c)
+                    {
+                        L(c, d) =
+                            side
+                           *(nodes_.velocity[j][c] - nodes_.velocity[i][c])
+                           /cells.spacing(d);
+                    }
                 }
-                for (label c = 0; c < dim; ++c)
-                {
-                    L(c, d) =
-                        (nodes_.velocity[j][c] - nodes_.velocity[i][c])
-                       /cells.spacing(d);
-                }
+                compressionRate_ = max(compressionRate_, -tr(L));
+                shearSqr = max(shearSqr, 0.5*magSqr(dev(symm(L))));
             }
-            compressionRate_ = max(compressionRate_, -tr(L));
-            shearSqr = max(shearSqr, 0.5*magSqr(dev(symm(L))));
         }
     }
     reduce(compressionRate_, maxOp<scalar>());

@@ -298,8 +298,7 @@ Foam::mpm::waterCloud::waterCloud
 :
     materialPointCloud
     (
-        name, mesh, grid, dict, control, cost, g, nodeBoundary::slipCorners,
-        false
+        name, mesh, grid, dict, control, cost, g, "slip", false
     ),
     fluid_(dict, control.strictKeywords),
     J_(points_.add("J", pointStorage::scalarValue)),
@@ -350,6 +349,7 @@ void Foam::mpm::waterCloud::checkDictionary
             "transfer",
             "apicRate",
             "flipDampingRate",
+            "corners",
             "tensionCutOff",
             "inflowOutflow"
         },
