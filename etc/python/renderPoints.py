@@ -1,14 +1,15 @@
 #!/usr/bin/env pvpython
 """Pictures of the points of a case, as ParaView reads them.
 
-    xvfb-run -a pvpython $MPMFOAM_DIR/etc/python/renderPoints.py \\
+    $MPMFOAM_DIR/etc/pvpythonOffscreen $MPMFOAM_DIR/etc/python/renderPoints.py \\
         [--case <dir>] [--cloud soil] [--output <dir>] 0.05 0.10 0.15
 
 One PNG per time (default: the last), <clouds>_t<time>.png: water coloured by
 speed, soil over it in the colour of sand, with the outline of the mesh and the
 time. In 2D what the mesh leaves out of its box is solid, and grey. A case
 without time directories of its own is read from its processor directories;
---decomposed asks for that. Prints for each time how many points ParaView found:
+--decomposed asks for that. --animation makes one moving picture,
+<clouds>.gif, of the times named (default: all) instead. Prints for each time how many points ParaView found:
 `<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`.
 """
 
@@ -19,6 +20,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 from paraview import servermanager
 from paraview.simple import (
     CellCenters, ColorBy, CreateRenderView, ExtractSurface, FeatureEdges,
@@ -45,6 +47,10 @@ def parse():
                         help="directory of the pictures (default: the case)")
     parser.add_argument("--decomposed", action="store_true",
                         help="read the processor directories")
+    parser.add_argument("--animation", nargs="?", type=float, const=0.1,
+                        metavar="SECONDS",
+                        help="one GIF; how long it shows each time"
+                             " (default: 0.1)")
     parser.add_argument("--maxSpeed", type=float,
                         help="end of the colour scale in m/s (default: the"
                              "\n99.9 percentile over all pictures)")
@@ -226,7 +232,9 @@ def main():
     if not available:
         sys.exit(f"{case}: no times")
     times = [min(available, key=lambda t: abs(t - wanted))
-             for wanted in arguments.times] or available[-1:]
+             for wanted in arguments.times] \
+        or (available if arguments.animation else available[-1:])
+    pictures = []
 
     # One pass to know the colour scale and the spacing of the points
     found, speeds = {}, []
@@ -300,11 +308,26 @@ def main():
         setCamera(view, meshPoints, cellSize, up, arguments.window)
         path = output/f"{shown}_t{time:.10g}.png"
         SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
+        pictures.append(path)
         for producer in producers:
             Hide(producer, view)
         number = ", ".join(f"{n} points of {name}" if len(counts) > 1
                            else f"{n} points" for name, n in counts.items())
         print(f"{time:.10g} s: {number or '0 points'}, {path}")
+
+    if arguments.animation:
+        animate(pictures, output/f"{shown}.gif", arguments.animation)
+
+
+def animate(pictures, path, seconds):
+    """One GIF of the pictures, which go"""
+    frames = [Image.open(picture).convert("P", palette=Image.ADAPTIVE)
+              for picture in pictures]
+    frames[0].save(path, save_all=True, append_images=frames[1:],
+                   duration=1000*seconds, loop=0)
+    for picture in pictures:
+        picture.unlink()
+    print(f"{len(frames)} times, {path}")
 
 
 def pointSpacing(points, corners):

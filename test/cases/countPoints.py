@@ -2,7 +2,7 @@
 """What ParaView finds of the cloud water, as JSON on the last line: for each
 case and time the number of points, of values of U, and the means.
 
-    xvfb-run -a pvpython countPoints.py <case> <case>:decomposed ...
+    $MPMFOAM_DIR/etc/pvpythonOffscreen countPoints.py <case> <case>:decomposed ...
 """
 
 import json

@@ -3,7 +3,7 @@
 the last line: for each file and time the number of points and cells, the
 arrays with their components, and means.
 
-    xvfb-run -a pvpython readHistory.py water.xdmf soil.xdmf
+    $MPMFOAM_DIR/etc/pvpythonOffscreen readHistory.py water.xdmf soil.xdmf
 """
 
 import json

@@ -2,6 +2,7 @@
 on two ranks, over restarts and kills, and as ParaView sees them."""
 
 import json
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -227,7 +228,8 @@ def testParaView(run, left, figures):
     cases = {str(path(case, cloud, "xdmf")): (case, cloud) for case, cloud in [
         (run, "water"), (run, "soil"), (left, "water")]}
     result = subprocess.run(
-        ["xvfb-run", "-a", "pvpython", str(HERE/"readHistory.py"), *cases],
+        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
+         str(HERE/"readHistory.py"), *cases],
         capture_output=True, text=True, timeout=180)
     assert result.returncode == 0, result.stdout + result.stderr
     print(result.stderr)

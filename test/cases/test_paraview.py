@@ -2,6 +2,7 @@
 utilities of OpenFOAM work on the cloud and on the fields."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -52,7 +53,8 @@ def seen(tmp_path_factory):
     names = {name: f"{c.path}:decomposed" if name == "decomposed"
              else str(c.path) for name, c in cases.items()}
     result = subprocess.run(
-        ["xvfb-run", "-a", "pvpython", str(HERE/"countPoints.py"),
+        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
+         str(HERE/"countPoints.py"),
          *names.values()], capture_output=True, text=True, timeout=180)
     assert result.returncode == 0, result.stdout + result.stderr
     found = json.loads(result.stdout.splitlines()[-1])

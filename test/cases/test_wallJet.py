@@ -281,7 +281,8 @@ def testPicture(serial, tmp_path, figures):
     """Both clouds in one picture: sand where there is sand, solids in grey"""
     scripts = Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"
     result = subprocess.run(
-        ["xvfb-run", "-a", "pvpython", str(scripts/"renderPoints.py"),
+        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
+         str(scripts/"renderPoints.py"),
          "--case", str(serial.path), "--output", str(tmp_path),
          "--window", "0.5", "1.3", "0", "0.25", "0.3"],
         capture_output=True, text=True, timeout=120)
@@ -307,6 +308,49 @@ def testPicture(serial, tmp_path, figures):
             ("air", 1.1, 0.20, [1, 1, 1])]:
         figures.atMost(f"colour of the {what}: difference", float(
             np.abs(at(x, y) - colour).max()), 0.03)
+
+
+@needsParaView
+def testAnimation(serial, tmp_path, figures):
+    from PIL import Image
+    scripts = Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"
+    result = subprocess.run(
+        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
+         str(scripts/"renderPoints.py"),
+         "--case", str(serial.path), "--output", str(tmp_path),
+         "--animation", "0.2", "0.1", "0.3"],
+        capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stdout + result.stderr
+    with Image.open(tmp_path/"water_soil.gif") as film:
+        figures.equal("pictures in the film", film.n_frames, 2)
+        frames = []
+        for i in range(film.n_frames):
+            film.seek(i)
+            frames.append(np.asarray(film.convert("RGB"), dtype=float))
+        figures.equal("ms for each", film.info["duration"], 200)
+    figures.atLeast("share of pixels that change", float(
+        (np.abs(frames[1] - frames[0]).max(axis=-1) > 40).mean()), 0.01)
+    figures.equal("other files", [p.name for p in tmp_path.iterdir()],
+                  ["water_soil.gif"])
+
+
+def testErosionFigure(serial, figures):
+    """Profiles and map are drawn, and the shares of agreement add up"""
+    scripts = Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"
+    result = subprocess.run(
+        [os.environ["MPMFOAM_PYTHON"], str(scripts/"plotErosion.py"),
+         "--case", str(serial.path), "--time", "0.3"],
+        capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0, result.stdout + result.stderr
+    figures.atLeast("bytes of erosion.png",
+                    (serial.path/"erosion.png").stat().st_size, 1e4)
+    found = dict(line.split() for line in result.stdout.splitlines()
+                 if re.match(r" +Shields\w+ ", line))
+    shares = [float(v) for k, v in found.items() if "Correlation" not in k]
+    figures.equal("shares", len(shares), 4)
+    figures.atMost("their sum less 1", abs(sum(shares) - 1), 1e-4)
+    figures.atLeast("exceeded where grains move",
+                    float(found["ShieldsExceededMoves"]), 0.1)
 
 
 def testMetrics(serial, figures):

@@ -64,10 +64,11 @@ def jittered(seed):
         for key, value in [("placement", "jittered"), ("seed", seed)]}}
 
 
-def floor(kind, **entries):
-    return {"0.orig/U.soil": {
-        f"boundaryField/floor/{k}": v
-        for k, v in {"type": kind, **entries}.items()}}
+def walls(cloud, patches, condition):
+    """Beside the tutorial's pattern, which it overrides"""
+    return {f"0.orig/U.{cloud}": {
+        f"boundaryField/{patch}": f"{{ type {condition}; }}"
+        for patch in patches}}
 
 
 # One factor changed against h0.01, to 2 s
@@ -82,13 +83,15 @@ SENSITIVITY = {
     "waterFLIP20": {PROPERTIES: {"water/transfer": "FLIP",
                                  "water/flipDampingRate": 20}},
     "soilAPIC": {PROPERTIES: {"soil/transfer": "APIC"}},
-    "floorFriction": floor("frictional", frictionCoefficient=0.7),
-    "floorSlip": floor("slip"),
-    "waterNoSlip": {"0.orig/U.water": {
-        f"boundaryField/{p}/type": "noSlip"
-        for p in ["base", "floor", "block"]}},
+    "floorFriction": walls("soil", ["floor"],
+                           "frictional; frictionCoefficient 0.7"),
+    "floorSlip": walls("soil", ["floor"], "slip"),
+    "waterNoSlip": walls("water", ["base", "floor", "block"], "noSlip"),
+    "soilCornersSlip": {PROPERTIES: {"soil/corners": "slip"}},
+    "waterCornersStick": {PROPERTIES: {"water/corners": "stick"}},
     "nsC0.3": model(nsC=0.3), "nsC0.5": model(nsC=0.5),
-    "pRes0.0005": model(pRes=0.0005), "pRes0.05": model(pRes=0.05),
+    # The default, 0.0027 Pa, is the largest that is admitted
+    "pRes0.0005": model(pRes=0.0005),
     "noSmoothing": {"system/fvSolution": {"MPM/smoothing": "no"}},
     # The pores of the bed's water left out
     "dryBed": {"system/setMaterialPointsDict": {

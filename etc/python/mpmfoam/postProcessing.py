@@ -39,6 +39,47 @@ def readColumns(casePath, functionObject, fileName):
     return dict(zip(head.strip("# \n").split(), rows.T))
 
 
+def erosionMaps(casePath, functionObject="erosion"):
+    """The columns of erosionCriteria.dat over time and place: time, x, and
+    arrays (times, places): known, where there is a bed and a shear stress on
+    it; moves, grains faster than 0.01 m/s at the surface; exceeded, by
+    criterion. criticalSpeed: sqrt(tau/rho) of each, the mean over the bed,
+    with rho = 1000"""
+    b = readColumns(casePath, functionObject, "erosionCriteria.dat")
+    time, x = np.unique(b["Time"]), np.unique(b["x"])
+    shape = (len(time), len(x))
+    names = [n.removesuffix("Exceeded") for n in b if n.endswith("Exceeded")]
+    return {
+        "time": time, "x": x,
+        "hasBed": np.isfinite(b["soilSpeed"]).reshape(shape),
+        "known": np.isfinite(b["shearStress"] + b["soilSpeed"]).reshape(
+            shape),
+        "moves": b["soilSpeed"].reshape(shape) > 0.01,
+        "exceeded": {n: b[f"{n}Exceeded"].reshape(shape) for n in names},
+        "criticalSpeed": {
+            n: float(np.sqrt(np.nanmean(b[f"{n}Stress"])/1000))
+            for n in names}}
+
+
+def agreement(found, criterion):
+    """Shares of the places and times at which the shear stress on the bed is
+    known, and the correlation of both (phi coefficient; nan if one never
+    changes)"""
+    known = found["known"]
+    above = (found["exceeded"][criterion] > 0)[known]
+    moves = found["moves"][known]
+    phi = np.nan
+    if 0 < above.mean() < 1 and 0 < moves.mean() < 1:
+        phi = np.corrcoef(above, moves)[0, 1]
+    return {
+        f"{criterion}ExceededMoves": (above & moves).mean(),
+        f"{criterion}ExceededRests": (above & ~moves).mean(),
+        f"{criterion}BelowMoves": (~above & moves).mean(),
+        f"{criterion}BelowRests": (~above & ~moves).mean(),
+        f"{criterion}Correlation": phi,
+        "shearStressKnown": known.sum()/found["hasBed"].sum()}
+
+
 def _table(path):
     with open(path) as file:
         lines = [line.replace("(", " ").replace(")", " ").split()
