@@ -49,7 +49,9 @@ class Run:
                sub-dictionary is written sub/entry
     files      file -> text, written as it is
     about      what the evaluation wants to know of the run
-    optional   runs only when it is named"""
+    optional   runs only when it is named
+    ranks      of the solver; with more than one the case is decomposed by its
+               system/decomposeParDict before and reconstructed after"""
     name: str
     templates: list
     commands: list
@@ -57,6 +59,7 @@ class Run:
     files: dict = field(default_factory=dict)
     about: dict = field(default_factory=dict)
     optional: bool = False
+    ranks: int = 1
     path: Path = None
 
     @property
@@ -69,7 +72,7 @@ class Run:
 
     def digest(self):
         """Changes with anything that goes into the case"""
-        parts = [json.dumps([self.commands, self.settings, self.files],
+        parts = [json.dumps([self._stages(), self.settings, self.files],
                             default=str, sort_keys=True).encode()]
         for source, place in self._sources():
             parts += [str(place).encode(), source.read_bytes()]
@@ -104,17 +107,20 @@ class Run:
         start = time.time()
         madeBy = build(self.commands[-1])
         endTime = float(entry(self.path/"system"/"controlDict", "endTime"))
-        for command in self.commands:
-            logFile = self.path/f"log.{command}"
+        for command in self._stages():
+            words = command.split()
+            name = words[3] if words[0] == "mpirun" else words[0]
+            suffix = ".weights" if "-weights" in words else ""
+            logFile = self.path/f"log.{name}{suffix}"
             with open(logFile, "w") as out:
                 process = subprocess.Popen(
-                    [command], cwd=self.path, stdout=out,
+                    words, cwd=self.path, stdout=out,
                     stderr=subprocess.STDOUT,
                     env={**os.environ, "PWD": str(self.path)})
                 try:
                     while process.poll() is None:
                         time.sleep(0.2)
-                        if command == self.commands[-1]:
+                        if name == self.commands[-1]:
                             _progress(self.name, logFile, endTime, start)
                 except BaseException:
                     process.terminate()
@@ -136,6 +142,15 @@ class Run:
         (self.path/_STAMP).write_text(json.dumps({
             "digest": self.digest(), "commit": commit(), "build": madeBy,
             "date": time.strftime("%Y-%m-%d")}) + "\n")
+
+    def _stages(self):
+        """The commands in full"""
+        if self.ranks == 1:
+            return self.commands
+        return [*self.commands[:-1], "setMaterialPoints -weights",
+                "decomposePar",
+                f"mpirun -np {self.ranks} {self.commands[-1]} -parallel",
+                "reconstructPar"]
 
     def _sources(self):
         for template in self.templates:
