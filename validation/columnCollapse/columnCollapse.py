@@ -106,7 +106,8 @@ def steepest(profile, h):
 def evaluate(done, results):
     out = {}
     table = {k: [] for k in ["a", "cellsPerL0", "runout", "runoutToe", "lube",
-                             "lajeunesse", "errorToNearer", "height",
+                             "lajeunesse", "errorToNearer", "outsideBoth",
+                             "height",
                              "lubeHeight", "slopeDeg", "tRest", "vRmsEnd",
                              "restSpeed", "separatedEnd", "massError",
                              "wallTime"]}
@@ -128,10 +129,11 @@ def evaluate(done, results):
                   for t in (times[0], times[-1]))
         runout = (course[-1, 1] - L0)/L0
         nearer = min([lube(a), lajeunesse(a)], key=lambda s: abs(runout/s - 1))
+        between = np.clip(runout, lube(a), lajeunesse(a))
         profile = surface(x, h)
         moved = np.abs(course[:, 1] - course[-1, 1]) > 0.02*L0
         row = [a, n, runout, (toe(case, times[-1], h) - L0)/L0, lube(a),
-               lajeunesse(a), runout/nearer - 1,
+               lajeunesse(a), runout/nearer - 1, runout/between - 1,
                profile.max()/L0, lubeHeight(a), steepest(profile, h),
                course[moved, 0].max() if moved.any() else 0,
                course[-1, 2], restSpeed(case, times), (regime == 3).mean(),
