@@ -119,9 +119,12 @@ def bed(model="elastoplasticMuI", wet=False, level=0.2, **coefficients):
 
 
 def apart(water=True, soil=True):
-    """Water and sand at the two ends of a tank, before they meet"""
+    """Water and sand at the two ends of a tank, before they meet; together or
+    alone they take the same steps, and do the same"""
     return Setup(
         cells=(100, 25), h=0.01, energy=False, mpm=numerics(), soil=sand(),
+        control={"adjustTimeStep": False, "deltaT": 2e-5},
+        water={"apicRate": 500},
         regions={"pond": hydrostatic((0, 0), (0.3, 0.2))} if water else {},
         soilRegions={"bed": box((0.7, 0), (1, 0.2), stress="geostatic")}
         if soil else {})
