@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from caseBuilder import damBreak
+from mpmfoam.runLog import costs
 
 
 @pytest.fixture(scope="module")
@@ -56,14 +57,6 @@ def testFoamLog(run, figures):
     figures.equal("times rise", bool(np.all(np.diff(times) > 0)), True)
     figures.atMost("largest Courant number", extracted(
         run, "CourantMax_0")[0].max(), 0.6)
-
-
-def costs(text):
-    """Rows of the closing table: name -> seconds, % of run, ns"""
-    table = text[text.index("\nCost\n"):]
-    return {name.strip(): (float(s), float(p), float(ns)) for name, s, p, ns
-            in re.findall(r"^ {4}(\S.*?) +([\d.]+) +([\d.]+) +([\d.]+)$",
-                          table, re.MULTILINE)}
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

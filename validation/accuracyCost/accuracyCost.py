@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """What accuracy costs in time: for each scene one factor at a time around the
 default (grid, points per cell, shape function, transfer, smoothing, time step,
-stiffness cap), the error of each run against analysis or against the finest
-run, and what it cost."""
+stiffness of soil or water), the error of each run against analysis or against
+the finest run, and what it cost."""
 
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -18,7 +19,7 @@ from scenes import SCENES  # noqa: E402
 
 MARKERS = {"default": "*", "grid": "o", "points": "s", "shape": "^",
            "transfer": "D", "smoothing": "v", "maxCo": "P", "stiffness": "X",
-           "interFoam": "o"}
+           "soundSpeed": "h", "interFoam": "o"}
 
 
 def memory(run):
@@ -26,7 +27,8 @@ def memory(run):
     text = (run.path/"log.mpmFoam").read_text(errors="replace")
     counts = dict(re.findall(r"Cloud (\w+): (\d+) points", (
         run.path/"log.setMaterialPoints").read_text(errors="replace")))
-    total = 0.0
+    total = sum(float(nodes) for nodes in re.findall(
+        r"^    coupling: (\S+) MB on nodes", text, re.MULTILINE))
     for cloud, perPoint, nodes in re.findall(
             r"^    (\w+): (\S+) bytes per point, (\S+) MB on nodes", text,
             re.MULTILINE):
@@ -69,15 +71,20 @@ def draw(scene, rows, best, path):
                             "interFoam": style.INTERFOAM}.get(factor),
                      mfc=None if factor != "grid" else "white",
                      label=factor, zorder=3 if factor == "default" else 2)
+    default = [r for r in rows if r["factor"] == "default"]
     for r in rows:
-        panel.annotate(" " + r["value"], (r["cpuTime"], r["error"]),
-                       fontsize=6, color="0.3")
+        # Those that cannot be told from the default would hide each other
+        if not any(abs(r["error"]/d["error"] - 1) < 0.05
+                   and abs(r["cpuTime"]/d["cpuTime"] - 1) < 0.2
+                   for d in default):
+            panel.annotate(" " + r["value"], (r["cpuTime"], r["error"]),
+                           fontsize=6, color="0.3")
     best = sorted(best, key=lambda r: r["cpuTime"])
     panel.step([r["cpuTime"] for r in best], [r["error"] for r in best],
                where="post", color="0.6", lw=0.8, ls="--",
                label="nothing is better and cheaper", zorder=1)
-    panel.set(xlabel="CPU time [s]", ylabel=scene.errorName,
-              title=scene.title)
+    panel.set(xlabel="CPU time [s]", title=scene.title,
+              ylabel=textwrap.fill(scene.errorName, 44))
     panel.legend(fontsize=7)
     style.save(fig, path)
 

@@ -10,11 +10,13 @@ from mpmfoam.postProcessing import readDat
 REPOSITORY = reference.repository()
 TUTORIALS = REPOSITORY/"tutorials"
 for other in ["validation/damBreak", "validation/columnCollapse",
-              "tutorials/standingWave"]:
+              "validation/coupling", "tutorials/standingWave"]:
     sys.path.insert(0, str(REPOSITORY/other))
 
 import columnCollapse as column  # noqa: E402
+import coupling  # noqa: E402
 import damBreak as dam  # noqa: E402
+from coupledProblem import PROBLEMS  # noqa: E402
 from makeWave import gaugePoints, waveSurface  # noqa: E402
 
 FLUID = "water/weaklyCompressibleNewtonianCoeffs"
@@ -289,6 +291,51 @@ class ColumnCollapse(Scene):
             - self.deposit(done[self.label("reference")], edges)).sum())
 
 
+class Consolidation(Scene):
+    title = "consolidation of an elastic layer of 1 m"
+    errorName = ("rms error of the pore pressure over its start, mean from "
+                 "T = 0.2 on")
+    clouds = ["water", "soil"]
+    h, points = 0.05, 3
+    grids = [0.5, 2, 4]
+    pointCounts = [1, 2, 4]
+    SOUND = [25, 100]           # beside the tutorial's 50 m/s
+
+    def settings(self, finer, points):
+        run = coupling.consolidation(round(finer/self.h))
+        return merged(run.settings, {POINTS: {
+            f"{c}/pointsPerDirection": points for c in self.clouds}})
+
+    def variants(self):
+        yield from super().variants()
+        yield from self.waterTransfers()
+        yield ("transfer", "soil APIC", 1, self.points,
+               {PROPERTIES: {"soil/transfer": "APIC"}})
+        yield ("smoothing", "no correction", 1, self.points,
+               {MPM: {"MPM/volumeCorrection": "no"}})
+        # No cap of the stiffness: it would change what Terzaghi's layer is.
+        # The water's stiffness limits the time step
+        for c in self.SOUND:
+            yield ("soundSpeed", f"{c} m/s", 1, self.points,
+                   {PROPERTIES: {f"{FLUID}/soundSpeed": c}})
+
+    def figures(self, run):
+        return PROBLEMS[self.name][0](run.case)
+
+    def error(self, run, done):
+        return self.figures(run)["poreRmsMean"]
+
+    def more(self, rows, done):
+        """What the error leaves out: the sound of the start, which fades, and
+        the settlement"""
+        out = {}
+        for r in rows:
+            found = self.figures(done[f"{self.name}/{r['run']}"])
+            for key in ["poreRmsMax", "settlementErrorMax"]:
+                out[f"{self.name}_{key}_{r['run']}"] = found[key]
+        return out
+
+
 class WallJet(Scene):
     title = "wall jet to 1 s"
     errorName = "error of the eroded area, mean 0.2-1 s, against the finest run"
@@ -330,4 +377,5 @@ class WallJet(Scene):
 
 
 SCENES = {scene.name: scene for scene in [
-    DamBreak(), StandingWave(), ColumnCollapse(), WallJet()]}
+    DamBreak(), StandingWave(), ColumnCollapse(), Consolidation(),
+    WallJet()]}

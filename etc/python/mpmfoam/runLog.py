@@ -53,6 +53,14 @@ def readLog(path):
     return log
 
 
+def costs(text):
+    """Rows of the closing table: name -> seconds, % of run, ns"""
+    table = text[text.index("\nCost\n"):]
+    return {name.strip(): (float(s), float(p), float(ns)) for name, s, p, ns
+            in re.findall(r"^ {4}(\S.*?) +([\d.]+) +([\d.]+) +([\d.]+)$",
+                          table, re.MULTILINE)}
+
+
 def _readLine(log, line):
     found = re.match(r"\s*Time = " + _NUMBER, line)
     if found:

@@ -272,6 +272,9 @@ def main(here, runs, evaluate, description=None):
             except (RunError, foamFile.FoamFileError) as error:
                 failed.append(str(error))
                 print(error, file=sys.stderr)
+            except KeyboardInterrupt:
+                sys.exit(f"\n{run.name}: interrupted; the next call makes it "
+                         "again and goes on from there")
 
     done = {run.name: run for run in runs if run.finished()}
     if done:

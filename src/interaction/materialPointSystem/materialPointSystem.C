@@ -278,14 +278,24 @@ void Foam::mpm::materialPointSystem::findWriteIntervals()
 }
 
 
-Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime() const
+Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime()
 {
     // What counts as the same time, in intervals
     const scalar same = 1e-6;
 
     scalar next = GREAT;
-    for (const scalar interval : writeIntervals_)
+    forAll(writeIntervals_, i)
     {
+        const scalar interval = writeIntervals_[i];
+        scalar& named = writeTimes_[i];
+
+        // The same until time comes to it: names cost as much as 20 points
+        if (time_.value() < named - same*interval)
+        {
+            next = min(next, named);
+            continue;
+        }
+
         // Time counts intervals from its start; most starts are multiples
         const scalar start = time_.startTime().value();
         scalar base = start - interval*std::round(start/interval);
@@ -294,7 +304,6 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime() const
         // As a restart reads it from the name of the directory; that may be
         // short of a multiple (a third of a second), which is then passed
         scalar count = std::floor((time_.value() - base)/interval + same);
-        scalar named;
         do
         {
             ++count;
@@ -394,6 +403,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     makeClouds();
     findFieldControls();
     findWriteIntervals();
+    writeTimes_.setSize(writeIntervals_.size(), -GREAT);
     signalSpeed_.setSize(clouds_.size(), 0);
 }
 
@@ -743,9 +753,21 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     }
     if (water_)
     {
-        const scalar variation =
-            returnReduce(water_->densityVariation(), maxOp<scalar>());
-        if (variation > 0.03)
+        // The percentile only where it may be too large: more than one point
+        // in a hundred is
+        const scalar most = 0.03;
+        const scalar* J = water_->J();
+        label nAbove = 0;
+        for (label p = 0; p < water_->size(); ++p)
+        {
+            nAbove += mag(1 - J[p]) > most*J[p];
+        }
+        const scalar variation = returnReduce
+        (
+            nAbove > 0.01*water_->size() ? water_->densityVariation() : 0,
+            maxOp<scalar>()
+        );
+        if (variation > most)
         {
             Info<< "--> water: the density varies by " << 100*variation
                 << " % (99th percentile); raise soundSpeed above "

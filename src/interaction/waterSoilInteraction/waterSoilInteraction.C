@@ -173,6 +173,7 @@ void Foam::mpm::waterSoilInteraction::mixture()
             }
         }
     }
+    fields_.contact = !nodes_.empty();
     cost_.stop();
 }
 

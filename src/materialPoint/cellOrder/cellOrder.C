@@ -96,17 +96,26 @@ void Foam::mpm::cellOrder::activate(const pointStorage& points)
 }
 
 
-void Foam::mpm::cellOrder::sort(pointStorage& points, const label nTiles)
+void Foam::mpm::cellOrder::sort(pointStorage& points)
 {
     const label n = points.size();
     const label* tile = points.tile();
 
+    // From the first tile that holds a point to the last
+    label first = labelMax, last = -1;
+    for (label p = 0; p < n; ++p)
+    {
+        first = min(first, tile[p]);
+        last = max(last, tile[p]);
+    }
+    const label nTiles = n ? last - first + 1 : 0;
+
     start_.assign(nTiles + 1, 0);
-    for (label p = 0; p < n; ++p) ++start_[tile[p] + 1];
+    for (label p = 0; p < n; ++p) ++start_[tile[p] - first + 1];
     for (label t = 0; t < nTiles; ++t) start_[t + 1] += start_[t];
 
     order_.setSize(n);
-    for (label p = 0; p < n; ++p) order_[start_[tile[p]]++] = p;
+    for (label p = 0; p < n; ++p) order_[start_[tile[p] - first]++] = p;
 
     points.reorder(order_);
 }

@@ -47,7 +47,7 @@ void Foam::mpm::materialPointCloud::activate(const bool sort)
     zeroNodes();
     order_.activate(points_);
     boundary_.activate(order_.nodes());
-    if (sort) order_.sort(points_, boundary_.nTiles());
+    if (sort) order_.sort(points_);
 }
 
 
@@ -286,6 +286,10 @@ Foam::mpm::materialPointCloud::materialPointCloud
     (void)mesh.tetBasePtIs();
 
     nodes_.resize(grid.nNodes(), grid.nDim());
+    if (settings_.energyBalance)
+    {
+        nodes_.oldVelocity.assign(grid.nNodes(), nodeVector{});
+    }
 }
 
 

@@ -120,6 +120,8 @@ public:
         const label* tile = c.points_.tile();
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         const nodeField<nodeVector>* water = c.waterMomentum_;
+        couplingFields* const coupling =
+            c.coupling_ && c.coupling_->contact ? c.coupling_ : nullptr;
 
         material m(makeMaterial());
         pointView<dim> view(c.template view<dim>());
@@ -159,7 +161,7 @@ public:
                     c.stressWork_ += deltaT*s.power[i - begin]*c.volume(i);
                 }
             }
-            kernels_.forcesToGrid(view, begin, m, c.nodes_, c.coupling_, water);
+            kernels_.forcesToGrid(view, begin, m, c.nodes_, coupling, water);
             begin = end;
         }
         this->exchangeForces();

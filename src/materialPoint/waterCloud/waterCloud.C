@@ -138,7 +138,7 @@ void Foam::mpm::waterCloud::addOutletLoads()
         const scalar depth = level - (g > 0 ? -z : z);
         return depth > 0 ? fluid_.hydrostaticPressure(mag(g)*depth) : 0;
     };
-    if (open_->loads().empty())
+    if (!open_->loadsKnown())
     {
         open_->setLoads(boundary_, vertical, pressure);
     }

@@ -170,7 +170,8 @@ Foam::mpm::inflowOutflow::inflowOutflow
 :
     grid_(grid),
     strict_(strictKeywords),
-    started_(false)
+    started_(false),
+    loadsKnown_(false)
 {
     checkKeywords(dict, {"inlets", "outlets", "recycle"}, strictKeywords);
 

@@ -94,6 +94,7 @@ void Foam::mpm::inflowOutflow::setLoads
             }
         }
     }
+    loadsKnown_ = true;
     loads_.clear();
     for (label i = 0; i < grid_.nNodes(); ++i)
     {

@@ -56,7 +56,9 @@ Foam::string Foam::mpm::limitOutlet::description() const
 
 bool Foam::mpm::limitOutlet::overlaps(const boundBox& box) const
 {
-    for (const point& x : box.points()())
+    // Named, or it would end before the loop begins
+    const tmp<pointField> corners(box.points());
+    for (const point& x : corners())
     {
         if (contains(x, -1)) return true;
     }
