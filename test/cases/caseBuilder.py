@@ -322,9 +322,8 @@ class Setup:
                 "defaultPatch": {"name": "walls", "type": "wall"},
                 "boundary": boundary}
 
-    def write(self, path):
-        """The case directory; returns the case to run"""
-        path = Path(path)
+    def files(self):
+        """Text of all files of the case by their place in it"""
         files = {
             **{f"0/U.{cloud}": (self.velocity(
                 {"water": self.wall, "soil": self.soilWall}[cloud]),
@@ -341,10 +340,15 @@ class Setup:
             "system/fvSolution": (self.fvSolution(), "dictionary"),
             "system/setMaterialPointsDict":
                 (self.setMaterialPointsDict(), "dictionary")}
-        for name, (content, kind) in files.items():
+        return {name: header(name.split("/")[-1], kind) + foamText(content)
+                for name, (content, kind) in files.items()}
+
+    def write(self, path):
+        """The case directory; returns the case to run"""
+        path = Path(path)
+        for name, text in self.files().items():
             (path/name).parent.mkdir(parents=True, exist_ok=True)
-            (path/name).write_text(
-                header(name.split("/")[-1], kind) + foamText(content))
+            (path/name).write_text(text)
         return RunningCase(path, self)
 
 

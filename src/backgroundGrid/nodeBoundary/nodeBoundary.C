@@ -10,6 +10,25 @@ License
 #include "localIOdictionary.H"
 #include "HashTable.H"
 #include "PstreamReduceOps.H"
+#include "debug.H"
+#include "registerSwitch.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+int Foam::mpm::nodeBoundary::mirrorWalls
+(
+    Foam::debug::debugSwitch("mpmMirrorWalls", 1)
+);
+
+static Foam::RegisterSwitch<int> addMirrorWalls
+(
+    Foam::debug::addDebugObject,
+    "mpmMirrorWalls",
+    Foam::mpm::nodeBoundary::mirrorWalls
+);
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace
 {
@@ -139,6 +158,8 @@ void Foam::mpm::nodeBoundary::buildStencils
     const label reachSize = grid_.reachSize();
 
     stencilIndex_.setSize(grid_.nNodes(), -1);
+    if (!mirrorWalls) return;
+
     label nStencils = 0;
 
     std::vector<label> target(reachSize);
@@ -549,8 +570,85 @@ void Foam::mpm::nodeBoundary::buildConstraints
             }
         }
     }
+    if (!mirrorWalls) constrainGhosts(slipNodes, fixedNodes);
+
     slipNodes_.transfer(slipNodes);
     fixedNodes_.transfer(fixedNodes);
+}
+
+
+void Foam::mpm::nodeBoundary::constrainGhosts
+(
+    DynamicList<label>& slip,
+    DynamicList<label>& fixed
+)
+{
+    const label nDim = grid_.nDim();
+
+    // Next to a node of a wall and outside of the mesh
+    auto forGhosts = [&](const label node, const auto& op)
+    {
+        index3 o;
+        for (o[2] = (nDim == 3 ? -1 : 0); o[2] <= (nDim == 3); ++o[2])
+        for (o[1] = -1; o[1] <= 1; ++o[1])
+        for (o[0] = -1; o[0] <= 1; ++o[0])
+        {
+            label ghost = node;
+            for (label d = 0; d < nDim; ++d) ghost += o[d]*grid_.stride(d);
+
+            bool outside = true;
+            for (label corner = 0; corner < (1 << nDim); ++corner)
+            {
+                label cell = ghost;
+                for (label d = 0; d < nDim; ++d)
+                {
+                    if ((corner >> d) & 1) cell -= grid_.stride(d);
+                }
+                outside = outside
+                 && (
+                        cell < 0 || cell >= grid_.nNodes()
+                     || grid_.cellRank(cell) == backgroundGrid::missing
+                    );
+            }
+            if (outside) op(ghost, o);
+        }
+    };
+
+    // A ghost stands still in the directions in which it lies behind the
+    // wall, and in those of its wall's node
+    const label nSlip = slip.size();
+    for (label i = 0; i < nSlip; ++i)
+    {
+        const nodeVector mask = slipMask_[i];
+        forGhosts
+        (
+            slip[i],
+            [&](const label ghost, const index3& o)
+            {
+                // Behind a wall, not beside it
+                for (label d = 0; d < nDim; ++d)
+                {
+                    if (o[d] && mask[d] != 0) return;
+                }
+                slip.append(ghost);
+                slipMask_.push_back(mask);
+            }
+        );
+    }
+    const label nFixed = fixed.size();
+    for (label i = 0; i < nFixed; ++i)
+    {
+        const nodeVector value = fixedValue_[i];
+        forGhosts
+        (
+            fixed[i],
+            [&](const label ghost, const index3&)
+            {
+                fixed.append(ghost);
+                fixedValue_.push_back(value);
+            }
+        );
+    }
 }
 
 
@@ -602,6 +700,14 @@ Foam::mpm::nodeBoundary::nodeBoundary
     corners_(corners),
     inflows_(inlets.size())
 {
+    if (!mirrorWalls)
+    {
+        WarningInFunction
+            << "DebugSwitches: mpmMirrorWalls 0" << nl
+            << "    Walls do not mirror. Results are not to be trusted."
+            << endl;
+    }
+
     List<FixedList<sideType, 6>> side;
     HashTable<nodeVector, label, Hash<label>> wallVelocity;
 

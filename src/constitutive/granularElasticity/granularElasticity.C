@@ -5,6 +5,23 @@ License
 
 #include "granularElasticity.H"
 #include "dictionaryEntries.H"
+#include "debug.H"
+#include "registerSwitch.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+int Foam::mpm::granularElasticity::exactPressureLaw
+(
+    Foam::debug::debugSwitch("mpmExactPressureLaw", 1)
+);
+
+static Foam::RegisterSwitch<int> addExactPressureLaw
+(
+    Foam::debug::addDebugObject,
+    "mpmExactPressureLaw",
+    Foam::mpm::granularElasticity::exactPressureLaw
+);
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -44,8 +61,17 @@ Foam::mpm::granularElasticity::granularElasticity
     n_(0),
     shearRatio_(1.5*(1 - 2*nu_)/(1 + nu_)),
     rhoS_(rhoS),
-    maxBulk_(VGREAT)
+    maxBulk_(VGREAT),
+    rateForm_(!exactPressureLaw),
+    uniform_(!rateForm_)
 {
+    if (rateForm_)
+    {
+        WarningInFunction
+            << "DebugSwitches: mpmExactPressureLaw 0" << nl
+            << "    The pressure of soil is not integrated exactly. Results"
+            << " are not to be trusted." << endl;
+    }
     scalar E = 0;
     if (constantAllowed && coeffs.found("E"))
     {
@@ -102,6 +128,7 @@ Foam::wordList Foam::mpm::granularElasticity::keywords
 void Foam::mpm::granularElasticity::limitWaveSpeed(const scalar maxSpeed)
 {
     maxBulk_ = maxSpeed*maxSpeed*rhoS_/(1 + 4*shearRatio_/3);
+    uniform_ = !capped() && !rateForm_;
 }
 
 

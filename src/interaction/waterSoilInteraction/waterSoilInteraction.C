@@ -7,6 +7,22 @@ License
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "dictionaryEntries.H"
+#include "debug.H"
+#include "registerSwitch.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+int Foam::mpm::waterSoilInteraction::implicitDrag
+(
+    Foam::debug::debugSwitch("mpmImplicitDrag", 1)
+);
+
+static Foam::RegisterSwitch<int> addImplicitDrag
+(
+    Foam::debug::addDebugObject,
+    "mpmImplicitDrag",
+    Foam::mpm::waterSoilInteraction::implicitDrag
+);
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -40,6 +56,40 @@ Foam::scalar Foam::mpm::waterSoilInteraction::waterVolume
 }
 
 
+template<class Part>
+void Foam::mpm::waterSoilInteraction::exchangeMomentum
+(
+    const scalar deltaT,
+    const Part& keptPart
+)
+{
+    const label dim = grid_.nDim();
+    const label n = nodes_.size();
+    const bool held = soil_.model().held();
+    const nodalFields& soil = soil_.nodes();
+    const nodalFields& water = water_.nodes();
+    nodeField<nodeVector>& vs = soil_.nodes().velocity;
+    nodeField<nodeVector>& vw = water_.nodes().velocity;
+
+    for (label k = 0; k < n; ++k)
+    {
+        const label i = nodes_[k];
+        const scalar perWater = 1/water.momentum[i][dim];
+        const scalar perSoil = held ? 0 : 1/soil.momentum[i][dim];
+        const scalar factor = deltaT*bulkVolume_[k]*(perWater + perSoil);
+        const scalar reduced =
+            (1 - keptPart(factor, k))/(perWater + perSoil);
+
+        for (label d = 0; d < dim; ++d)
+        {
+            const scalar impulse = reduced*(vw[i][d] - vs[i][d]);
+            vw[i][d] -= perWater*impulse;
+            vs[i][d] += perSoil*impulse;
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
@@ -57,8 +107,16 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     soil_(soil),
     cost_(cost),
     divergenceForm_(divergenceForm),
+    implicitDrag_(implicitDrag),
     nPacked_(0)
 {
+    if (!implicitDrag_)
+    {
+        WarningInFunction
+            << "DebugSwitches: mpmImplicitDrag 0" << nl
+            << "    Drag is explicit. Results are not to be trusted." << endl;
+    }
+
     const dictionary dict(properties.subOrEmptyDict("interaction"));
     checkKeywords(dict, {"drag"}, strictKeywords);
 
@@ -259,9 +317,6 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
 
     const label dim = grid_.nDim();
     const label n = nodes_.size();
-    const bool held = soil_.model().held();
-    const nodalFields& soil = soil_.nodes();
-    const nodalFields& water = water_.nodes();
     nodeField<nodeVector>& vs = soil_.nodes().velocity;
     nodeField<nodeVector>& vw = water_.nodes().velocity;
 
@@ -280,24 +335,33 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
         n, solidFraction_.data(), speed_.data(), a_.data(), b_.data()
     );
 
-    for (label k = 0; k < n; ++k)
+    if (implicitDrag_)
     {
-        const label i = nodes_[k];
-        const scalar perWater = 1/water.momentum[i][dim];
-        const scalar perSoil = held ? 0 : 1/soil.momentum[i][dim];
-        const scalar factor = deltaT*bulkVolume_[k]*(perWater + perSoil);
-        const scalar linear = 1 + factor*a_[k];
-        const scalar kept =
-            2
-           /(linear + std::sqrt(sqr(linear) + 4*factor*b_[k]*speed_[k]));
-        const scalar reduced = (1 - kept)/(perWater + perSoil);
-
-        for (label d = 0; d < dim; ++d)
-        {
-            const scalar impulse = reduced*(vw[i][d] - vs[i][d]);
-            vw[i][d] -= perWater*impulse;
-            vs[i][d] += perSoil*impulse;
-        }
+        exchangeMomentum
+        (
+            deltaT,
+            [&](const scalar factor, const label k)
+            {
+                const scalar linear = 1 + factor*a_[k];
+                return
+                    2
+                   /(
+                        linear
+                      + std::sqrt(sqr(linear) + 4*factor*b_[k]*speed_[k])
+                    );
+            }
+        );
+    }
+    else
+    {
+        exchangeMomentum
+        (
+            deltaT,
+            [&](const scalar factor, const label k)
+            {
+                return 1 - factor*(a_[k] + b_[k]*speed_[k]);
+            }
+        );
     }
 
     // Walls take what drag brings to them

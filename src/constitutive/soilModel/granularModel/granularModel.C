@@ -5,6 +5,22 @@ License
 
 #include "granularModel.H"
 #include "dictionaryEntries.H"
+#include "debug.H"
+#include "registerSwitch.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+int Foam::mpm::granularModel::recontact
+(
+    Foam::debug::debugSwitch("mpmRecontact", 1)
+);
+
+static Foam::RegisterSwitch<int> addRecontact
+(
+    Foam::debug::addDebugObject,
+    "mpmRecontact",
+    Foam::mpm::granularModel::recontact
+);
 
 // Shear strength at pRes is sin(phi) pRes or less by up to sqrt(3) sin(phi)
 // (triaxial compression); with this part of the Shields stress it stays below
@@ -72,6 +88,7 @@ Foam::mpm::granularModel::granularModel
     elasticity_(coeffs, rhoS_, constantElasticity),
     loosestContact_(VGREAT),
     settledContact_(e0_),
+    recontact_(recontact),
     bedLoadI_
     (
         readBoundedOrDefault
@@ -95,6 +112,14 @@ Foam::mpm::granularModel::granularModel
         ) == "KriegerDougherty"
     )
 {
+    if (!recontact_)
+    {
+        WarningInFunction
+            << "DebugSwitches: mpmRecontact 0" << nl
+            << "    Soil that lost contact carries as soon as it contracts."
+            << " Results are not to be trusted." << endl;
+    }
+
     const scalar nsC =
         readBoundedOrDefault(coeffs, "nsC", dimless, 0.4, 0, 1);
     suspendedVoidRatio_ = (1 - nsC)/nsC;

@@ -111,7 +111,7 @@ inline void Foam::mpm::granularModel::loadStress
 }
 
 
-template<int dim, Foam::mpm::granularElasticity::law L, bool capped>
+template<int dim, Foam::mpm::granularElasticity::law L, bool uniform>
 inline void Foam::mpm::granularModel::trial
 (
     const label j,
@@ -122,11 +122,13 @@ inline void Foam::mpm::granularModel::trial
     constexpr int n = nComponents<dim>;
 
     const scalar middle = 0.5*(block.e0[j] + block.e[j]);
+    const scalar p = block.p[j];
     const granularElasticity::range limits =
-        capped ? elasticity_.rangeAt<L>(middle) : elasticity_.uncapped();
+        uniform
+      ? elasticity_.uncapped()
+      : elasticity_.rangeOfStep<L>(middle, p);
 
     const scalar a = elasticity_.coefficient<L>(middle);
-    const scalar p = block.p[j];
     const scalar kStart = elasticity_.stiffness<L>(p, limits);
     const scalar XStart = elasticity_.measure<L>(p, limits);
     const scalar XRes = elasticity_.measure<L>(pRes_, limits);
@@ -184,8 +186,9 @@ void Foam::mpm::granularModel::trialBlock
     {
         loadStress<dim>(points, first + j, j, deltaT, block);
     }
-    if (elasticity_.capped())
+    if (elasticity_.uniform())
     {
+        #pragma GCC ivdep
         for (label j = 0; j < nPoints; ++j)
         {
             trial<dim, L, true>(j, deltaT, block);
@@ -193,7 +196,6 @@ void Foam::mpm::granularModel::trialBlock
     }
     else
     {
-        #pragma GCC ivdep
         for (label j = 0; j < nPoints; ++j)
         {
             trial<dim, L, false>(j, deltaT, block);
@@ -253,7 +255,10 @@ bool Foam::mpm::granularModel::contactStep
         const scalar c0 = block.c0[j], c1 = block.c1[j], c2 = block.c2[j];
         const scalar halfModulus = 0.5*elasticity_.shearRatio()*a;
         const granularElasticity::range limits =
-            elasticity_.rangeAt<L>(0.5*(block.e0[j] + block.e[j]));
+            elasticity_.rangeOfStep<L>
+            (
+                0.5*(block.e0[j] + block.e[j]), block.p[j]
+            );
 
         flow.setDilatancy();
 
@@ -476,7 +481,7 @@ void Foam::mpm::granularModel::advance
                 block.p[j] = pRes_;
                 block.e0[j] = open;
                 step.plasticStrain = 0;
-                trial<dim, L, true>(j, part*deltaT, block);
+                trial<dim, L, false>(j, part*deltaT, block);
                 model.findStrength(j, block, strengths);
             }
 
@@ -535,6 +540,17 @@ void Foam::mpm::granularModel::advance
             for (label m = 0; m <= j; ++m)
             {
                 maxViscosity = max(maxViscosity, block.viscosity[m]);
+            }
+        }
+    }
+
+    if (!recontact_)
+    {
+        for (label i = 0; i < points.n; ++i)
+        {
+            if (contactVoidRatio[i] > 0)
+            {
+                contactVoidRatio[i] = points.voidRatio[i];
             }
         }
     }
