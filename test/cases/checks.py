@@ -33,20 +33,20 @@ def healthy(figures, case, energy=True, start="0", bound=1e-3):
                        total.max()/total[0] - 1, bound)
 
 
-def meanLevel(case, time):
-    """Mean height of the surface, alpha.water = 0.5, above the floor; seen
-    from above"""
-    x, y, alpha = case.case.lattice(time, "alpha.water")
-    levels = []
-    for column in alpha.T:
-        wet = np.flatnonzero(column > 0.5)
-        if not len(wet):
-            levels.append(0.0)
-            continue
-        j = wet[-1]
-        if j + 1 == len(y):
-            levels.append(y[j])
-            continue
-        part = (column[j] - 0.5)/(column[j] - column[j + 1])
-        levels.append(y[j] + part*(y[j + 1] - y[j]))
-    return float(np.mean(levels)) - case.setup.bounds[0][1]
+def meanLevel(case, time, clouds=("water",)):
+    """Mean height over the floor of the water, or of all clouds named, that a
+    mesh without solids holds: the length of each column in which their part
+    of the volume is above 1/2"""
+    x, y, _ = case.case.lattice(time, f"alpha.{clouds[0]}")
+    alpha = sum(case.case.lattice(time, f"alpha.{c}")[2] for c in clouds)
+    # Half a cell to the floor, where it is as in the lowest cell
+    wet = alpha > 0.5
+    length = 0.5*(y[1] - y[0])*wet[0].astype(float)
+    for j in range(len(y) - 1):
+        lower, upper = alpha[j], alpha[j + 1]
+        change = np.where(upper == lower, 1, upper - lower)
+        crossing = np.where(wet[j] == wet[j + 1], 0, (0.5 - lower)/change)
+        part = np.where(wet[j] & wet[j + 1], 1.0, np.where(
+            wet[j], crossing, np.where(wet[j + 1], 1 - crossing, 0.0)))
+        length += part*(y[j + 1] - y[j])
+    return float(np.mean(length))

@@ -1,11 +1,15 @@
-"""Small versions of the hard cases of the specification, water alone: finite
-values, exact mass, no point outside, energy that does not grow."""
+"""Small versions of the hard cases of the specification, the guards that keep
+them stable, and variants in water: finite values, exact mass, no point
+outside, energy that does not grow, level. hardCases has what they are;
+validation/stability runs the large ones."""
 
 import numpy as np
 import pytest
 
+import hardCases
 from caseBuilder import Setup, box, damBreak, header, hydrostatic
 from checks import healthy
+from hardCases import GUARDS, HARD
 
 
 def ran(setup, path, figures, **kwargs):
@@ -15,114 +19,59 @@ def ran(setup, path, figures, **kwargs):
     return case
 
 
-def testThinFilm(tmp_path, figures):
-    """One cell deep, sliding along a floor and up a wall"""
-    setup = Setup(cells=(30, 12), h=0.02, regions={"film": hydrostatic(
-        (0, 0), (0.4, 0.02), velocity=(0.5, 0, 0))})
-    case = ran(setup.until(1, write=0.05), tmp_path, figures)
-    figures.atMost("highest point over u^2/2g + depth", case.points().x[
-        :, 1].max()/(0.5**2/(2*9.81) + 0.02), 2)
+@pytest.mark.parametrize("name", HARD)
+def testHardCase(tmp_path, figures, name):
+    hard = HARD[name]
+    hard.bounds(figures, hard.solve(tmp_path/"case", hard.quick))
 
+
+@pytest.mark.parametrize("name", GUARDS)
+def testGuard(tmp_path, figures, name):
+    """The bound holds with the guard, and not without it"""
+    guard = GUARDS[name]
+    for on in [True, False]:
+        case = guard.made(on, guard.quick).write(tmp_path/str(on))
+        figure = guard.figure(case)
+        if on:
+            figures.atMost(f"with it: {guard.about}", figure, guard.bound)
+        else:
+            # Clearly, not by a hair
+            figures.atLeast(f"without it: {guard.about}", figure,
+                            1.5*guard.bound)
+        if guard.debugSwitch:
+            figures.equal("warning in the log", guard.warned(case), not on)
+
+
+# --- variants -------------------------------------------------------------
 
 def testThinFilmOfHalfACell(tmp_path, figures):
-    setup = Setup(cells=(30, 12), h=0.02, points=4, regions={
-        "film": hydrostatic((0, 0), (0.4, 0.01), velocity=(0.5, 0, 0))})
-    ran(setup.until(1, write=0.05), tmp_path, figures)
+    ran(hardCases.film(depth=0.5, points=4), tmp_path, figures)
 
 
-def testFreePoints(tmp_path, figures):
-    """Single points, several cells apart, fall on a floor"""
-    regions = {}
-    for k, (x, y) in enumerate([(0.05, 0.31), (0.15, 0.23), (0.27, 0.37),
-                                (0.35, 0.11)]):
-        # With two points per direction they sit at 0.25 and 0.75 of a cell
-        i, j = int(x/0.02), int(y/0.02)
-        centre = np.array([(i + 0.25)*0.02, (j + 0.25)*0.02])
-        regions[f"p{k}"] = box(centre - 1e-3, centre + 1e-3)
-    setup = Setup(cells=(20, 20), h=0.02, points=2, regions=regions,
-                  fluid={"soundSpeed": 25})
-    # Not longer: a single point that rests on a floor keeps an oscillation of
-    # its volume that grows from about 0.7 s on (README, known limits)
-    case = ran(setup.until(0.5, write=0.02), tmp_path, figures)
-    figures.equal("points", len(case.points().id), 4)
-    # They fall freely before the first one lands
-    start, later = case.points("0"), case.points("0.1")
-    fall = start.x[:, 1] - later.x[:, 1]
-    figures.atMost("path of the highest: error over g t^2/2", float(np.abs(
-        fall[start.x[:, 1] > 0.2]/(0.5*9.81*0.1**2) - 1).max()), 0.02)
-    end = case.points()
-    figures.atMost("highest point at the end", end.x[:, 1].max(), 0.02)
+@pytest.mark.parametrize("points", [1, 3])
+def testPointsPerCell3D(tmp_path, figures, points):
+    ran(damBreak(3, h=0.05, points=points).until(0.8, write=0.05),
+        tmp_path, figures)
 
 
-@pytest.mark.parametrize("dim, points", [(2, 1), (2, 4), (3, 1), (3, 3)])
-def testPointsPerCell(tmp_path, figures, dim, points):
-    """One point per cell, and 16 (27)"""
-    setup = damBreak(dim, h=0.02 if dim == 2 else 0.05, points=points)
-    ran(setup.until(0.8, write=0.05), tmp_path, figures)
+def testImpactOnStep3D(tmp_path, figures):
+    setup = hardCases.step(1, dim=3, end=0.5)
+    hardCases.behindStep(figures, ran(setup, tmp_path, figures))
+
+
+def testImpactOnWallNoSlip(tmp_path, figures):
+    ran(hardCases.wall(1, wall="noSlip"), tmp_path, figures)
+
+
+@pytest.mark.parametrize("transfer", ["APIC", "FLIP"])
+def testLargeCourantNumber3D(tmp_path, figures, transfer):
+    setup = hardCases.fast(dim=3, transfer=transfer)
+    hardCases.fastHolds(figures, ran(setup, tmp_path, figures))
 
 
 def testManyPointsPerCell(tmp_path, figures):
     setup = damBreak(h=0.05, points=10)
     ran(setup.until(0.4, write=0.05), tmp_path, figures)
-
-
-@pytest.mark.parametrize("dim", [2, 3])
-def testImpactOnStep(tmp_path, figures, dim):
-    """Against the face of a step, over its edge and against the wall"""
-    setup = damBreak(dim, h=0.02 if dim == 2 else 0.025, height=0.3,
-                     points=3 if dim == 2 else 2)
-    step = (12, 3) if dim == 2 else (10, 3)
-    lower = (step[0], 0) if dim == 2 else (step[0], 0, 0)
-    upper = (step[0] + 5, step[1]) if dim == 2 else (
-        step[0] + 4, setup.cells[1], step[1])
-    setup.solid = [(lower, upper)]
-    case = ran(setup.until(0.8 if dim == 2 else 0.5, write=0.04),
-               tmp_path, figures)
-    h = setup.spacing[0]
-    end = case.points()
-    figures.atLeast("points behind the step",
-                    int(np.sum(end.x[:, 0] > upper[0]*h)), 1)
-
-
-@pytest.mark.parametrize("wall", ["slip", "noSlip"])
-def testImpactOnWall(tmp_path, figures, wall):
-    """A block of water at 3 m/s against a wall, in a corner"""
-    setup = Setup(cells=(20, 20), h=0.02, wall=wall, g=(0, 0, 0),
-                  fluid={"soundSpeed": 40}, regions={
-                      "block": box((0.2, 0.04), (0.36, 0.2),
-                                   velocity=(3, -0.5, 0))})
-    ran(setup.until(0.3, write=0.01), tmp_path, figures)
-
-
-def testPointsOnFacesAndCorners(tmp_path, figures):
-    """Points exactly on cell faces, cell corners, walls and in the corners
-    of the mesh: the positions of a case, edited in ascii"""
-    setup = Setup(cells=(20, 10), h=0.02, points=2,
-                  control={"writeFormat": "ascii", "writePrecision": 17},
-                  regions={"pool": hydrostatic((0, 0), (0.4, 0.08))})
-    setup.until(0.5, write=0.05)
-    case = setup.write(tmp_path/"case").prepare()
-    start = case.points("0")
-    grid = start.x.copy()
-    # 0.25 and 0.75 of a cell to 0 and 0.5: faces, corners and wall
-    grid[:, :2] -= 0.005
-    top = (grid[:, 1] > 0.0745) & (grid[:, 1] < 0.0755)
-    right = np.isclose(grid[:, 0], 0.39)
-    grid[right, 0] = 0.4 - 1e-12
-    grid[top, 1] = 0.08
-    order = np.argsort(case.case.cloudField("0", "water", "id"),
-                       kind="stable")
-    x = np.empty_like(grid)
-    x[order] = grid
-    path = case.path/"0"/"lagrangian"/"water"/"x"
-    path.write_text(header("x", "vectorField") + f"{len(x)}\n(\n" + "\n".join(
-        "({:.17g} {:.17g} {:.17g})".format(*row) for row in x) + "\n)\n")
-    on = np.isclose(x[:, :2]/0.02, np.round(x[:, :2]/0.02), atol=1e-9)
-    figures.atLeast("points on a face", int(np.any(on, axis=1).sum()), 100)
-    figures.atLeast("points on a corner", int(np.all(on, axis=1).sum()), 40)
-    case.solve()
-    # Shifted points start out of balance
-    healthy(figures, case)
 
 
 def testPointOnLastFace(tmp_path, figures):
@@ -164,19 +113,6 @@ def testRestartFromAscii(tmp_path, figures, precision):
         healthy(figures, case, energy=False)
 
 
-def testDroppedColumn(tmp_path, figures):
-    """0.2 x 0.2 m of water dropped from 1 m: 4.4 m/s at the floor"""
-    setup = Setup(cells=(40, 56), h=0.025, points=3, regions={
-        "column": box((0.4, 1), (0.6, 1.2))})
-    case = ran(setup.until(1, write=0.05), tmp_path, figures)
-    c = case.state("0")["soundSpeed"]
-    figures.atLeast("sound speed over 10 sqrt(2 g drop)",
-                    c/(10*np.sqrt(2*9.81)), 0.98)
-    before = case.points("0.4")
-    figures.atMost("momentum before the impact: error over m g t", abs(
-        before.momentum[1]/(-9.81*0.4*before.totalMass) - 1), 1e-6)
-
-
 def testMostlyEmpty(tmp_path, figures):
     """Two small bodies far apart in a large mesh; one rests"""
     setup = Setup(cells=(120, 60), h=0.02, regions={
@@ -185,17 +121,6 @@ def testMostlyEmpty(tmp_path, figures):
     case = ran(setup.until(0.8, write=0.05), tmp_path, figures)
     # Cells without points cost nothing: compare with the tank alone
     figures.show("ns per point and step", case.log.nsPerPointStep)
-
-
-@pytest.mark.parametrize("transfer", ["APIC", "FLIP"])
-@pytest.mark.parametrize("dim", [2, 3])
-def testLargeCourantNumber(tmp_path, figures, dim, transfer):
-    """maxCo at 0.9 of the limit 0.7"""
-    setup = damBreak(dim, h=0.02 if dim == 2 else 0.04,
-                     points=3 if dim == 2 else 2, mpm={"maxCo": 0.63},
-                     water={"transfer": transfer})
-    case = ran(setup.until(1, write=0.05), tmp_path, figures)
-    figures.atLeast("largest Courant number", case.log.courantMax, 0.62)
 
 
 def testFlowThroughGap(tmp_path, figures):

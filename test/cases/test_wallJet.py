@@ -82,11 +82,11 @@ def clouds(case, time):
     return {cloud: CloudPoints(case, cloud, time) for cloud in CLOUDS}
 
 
-def sound(figures, case):
+def sound(figures, case, names=CLOUDS):
     """Finite, inside of the mesh and outside of its walls, and masses exact,
     at all times"""
-    first = clouds(case, "0")
-    for cloud in CLOUDS:
+    first = {cloud: CloudPoints(case, cloud, "0") for cloud in names}
+    for cloud in names:
         finite = outside = wrongMass = 0
         balance = 0.0
         masses = dict(zip(first[cloud].id, first[cloud].mass))

@@ -136,6 +136,10 @@ class Run:
         _progress(self.name, None, endTime, start)
         if not self.log.finished:
             raise RunError(f"{self.name}: the log has no End")
+        self.sign(madeBy)
+
+    def sign(self, madeBy):
+        """It is finished: note what made it"""
         if build(self.commands[-1]) != madeBy:
             raise RunError(f"{self.name}: {self.commands[-1]} was built anew "
                            "during the run")
