@@ -18,11 +18,12 @@ for place in ["etc/python", "test", "test/cases"]:
 
 import caseBuilder  # noqa: E402
 from conftest import Figures  # noqa: E402
-from hardCases import GUARDS, HARD, ElementTest  # noqa: E402
+from hardCases import GUARDS, HARD, KNOWN, ElementTest  # noqa: E402
 from mpmfoam import metrics, reference, study, style  # noqa: E402
 
 caseBuilder.TIMEOUT = 7200
 FIGURES = "figures.json"
+CASES = {**HARD, **KNOWN}
 
 
 class Bounds(Figures):
@@ -74,7 +75,10 @@ class HardRun(study.Run):
             self.judge(bounds, case)
         except AssertionError as error:
             # A run that ends with an error does not hold
-            bounds.holds("it runs to its end", False, str(error)[-200:])
+            reason = [line for line in str(error).splitlines()
+                      if line.startswith(("cloud", "non-finite"))]
+            bounds.holds("it runs to its end", False,
+                         reason[0] if reason else str(error)[:200])
         (self.path/FIGURES).write_text(json.dumps(bounds.rows) + "\n")
         self.sign(madeBy)
 
@@ -97,7 +101,7 @@ def commandsOf(setup):
 
 
 def hardRun(name):
-    hard = HARD[name]
+    hard = CASES[name]
     setup = hard.setup(**hard.large)
     return HardRun(name, [], commandsOf(setup), about={"text": hard.about},
                    setup=setup, solve=hard.start, judge=hard.bounds)
@@ -131,7 +135,7 @@ def limits(rows):
 
 
 def draw(done, results):
-    cases = [name for name in HARD if name in done]
+    cases = [name for name in CASES if name in done]
     guards = [name for name in GUARDS
               if all(f"guard_{name}_{s}" in done for s in ("on", "off"))]
     fig, (left, right) = style.figure(1, 2, width=10, height=5.2)
@@ -139,7 +143,8 @@ def draw(done, results):
         run = done[name]
         worst = max(limits(run.figures), default=(np.nan, ""))
         holds = all(row[-1] for row in run.figures)
-        left.plot(max(worst[0], 1e-3), k, "o",
+        # A run that stopped has no figure
+        left.plot(max(np.nan_to_num(worst[0], nan=10), 1e-3), k, "o",
                   color=style.MPM if holds else style.INTERFOAM)
     left.axvline(1, color=style.REFERENCE, ls="--", lw=0.8)
     left.set(xscale="log", yticks=range(len(cases)),
@@ -155,7 +160,7 @@ def draw(done, results):
         stopped = not np.isfinite(off)
         right.plot(100 if stopped else off/bound, k,
                    ">" if stopped else "s", color=style.INTERFOAM,
-                   label="without it" if k == 1 else None)
+                   label="without it" if not k else None)
         if stopped:
             right.annotate("the run stops", (100, k), (-4, 6), ha="right",
                            textcoords="offset points", fontsize=8)
@@ -163,7 +168,7 @@ def draw(done, results):
     right.set(xscale="log", yticks=range(len(guards)),
               yticklabels=guards[::-1], title="guards",
               xlabel="figure over its bound")
-    right.legend(loc="lower center")
+    right.legend(loc="upper left", bbox_to_anchor=(0, -0.1), ncols=2)
     style.save(fig, results/"stability.png")
 
 
@@ -212,7 +217,7 @@ def evaluate(done, results):
 
 
 RUNS = ([guardRun(name, on) for name in GUARDS for on in (True, False)]
-        + [hardRun(name) for name in HARD])
+        + [hardRun(name) for name in CASES])
 
 
 if __name__ == "__main__":
