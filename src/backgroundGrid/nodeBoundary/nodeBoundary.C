@@ -13,25 +13,21 @@ License
 #include "debug.H"
 #include "registerSwitch.H"
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-int Foam::mpm::nodeBoundary::mirrorWalls
-(
-    Foam::debug::debugSwitch("mpmMirrorWalls", 1)
-);
-
-static Foam::RegisterSwitch<int> addMirrorWalls
-(
-    Foam::debug::addDebugObject,
-    "mpmMirrorWalls",
-    Foam::mpm::nodeBoundary::mirrorWalls
-);
-
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace
 {
+    //- Debug switch, on. Set to 0 in system/controlDict it takes the mirrors
+    //  away: ghost nodes are nodes of their own, and the velocity that a wall
+    //  gives its nodes holds there, too. Only to show what mirrors guard
+    //  against. Read when a boundary is made.
+    int mirrorWalls(Foam::debug::debugSwitch("mpmMirrorWalls", 1));
+
+    Foam::RegisterSwitch<int> addMirrorWalls
+    (
+        Foam::debug::addDebugObject, "mpmMirrorWalls", mirrorWalls
+    );
+
     const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry", "frictional"});
     const Foam::wordList fixedTypes({"noSlip", "fixedValue"});
     const Foam::wordList openTypes({"zeroGradient", "inletOutlet"});
@@ -48,6 +44,88 @@ namespace
     inline Foam::label sideOf(const Foam::label d, const Foam::label s)
     {
         return 2*d + (s > 0);
+    }
+
+
+    //- Without mirrors: ghost nodes do as the nodes of the wall
+    void constrainGhosts
+    (
+        const Foam::mpm::backgroundGrid& grid,
+        Foam::DynamicList<Foam::label>& slip,
+        std::vector<Foam::mpm::nodeVector>& slipMask,
+        Foam::DynamicList<Foam::label>& fixed,
+        std::vector<Foam::mpm::nodeVector>& fixedValue
+    )
+    {
+        using namespace Foam;
+        using namespace Foam::mpm;
+
+        const label nDim = grid.nDim();
+
+        // Next to a node of a wall and outside of the mesh
+        auto forGhosts = [&](const label node, const auto& op)
+        {
+            index3 o;
+            for (o[2] = (nDim == 3 ? -1 : 0); o[2] <= (nDim == 3); ++o[2])
+            for (o[1] = -1; o[1] <= 1; ++o[1])
+            for (o[0] = -1; o[0] <= 1; ++o[0])
+            {
+                label ghost = node;
+                for (label d = 0; d < nDim; ++d) ghost += o[d]*grid.stride(d);
+
+                bool outside = true;
+                for (label corner = 0; corner < (1 << nDim); ++corner)
+                {
+                    label cell = ghost;
+                    for (label d = 0; d < nDim; ++d)
+                    {
+                        if ((corner >> d) & 1) cell -= grid.stride(d);
+                    }
+                    outside = outside
+                     && (
+                            cell < 0 || cell >= grid.nNodes()
+                         || grid.cellRank(cell) == backgroundGrid::missing
+                        );
+                }
+                if (outside) op(ghost, o);
+            }
+        };
+
+        // A ghost stands still in the directions in which it lies behind the
+        // wall, and in those of its wall's node
+        const label nSlip = slip.size();
+        for (label i = 0; i < nSlip; ++i)
+        {
+            const nodeVector mask = slipMask[i];
+            forGhosts
+            (
+                slip[i],
+                [&](const label ghost, const index3& o)
+                {
+                    // Behind a wall, not beside it
+                    for (label d = 0; d < nDim; ++d)
+                    {
+                        if (o[d] && mask[d] != 0) return;
+                    }
+                    slip.append(ghost);
+                    slipMask.push_back(mask);
+                }
+            );
+        }
+        const label nFixed = fixed.size();
+        for (label i = 0; i < nFixed; ++i)
+        {
+            const nodeVector value = fixedValue[i];
+            forGhosts
+            (
+                fixed[i],
+                [&](const label ghost, const index3&)
+                {
+                    fixed.append(ghost);
+                    fixedValue.push_back(value);
+                }
+            );
+        }
     }
 }
 
@@ -570,85 +648,15 @@ void Foam::mpm::nodeBoundary::buildConstraints
             }
         }
     }
-    if (!mirrorWalls) constrainGhosts(slipNodes, fixedNodes);
-
+    if (!mirrorWalls)
+    {
+        constrainGhosts
+        (
+            grid_, slipNodes, slipMask_, fixedNodes, fixedValue_
+        );
+    }
     slipNodes_.transfer(slipNodes);
     fixedNodes_.transfer(fixedNodes);
-}
-
-
-void Foam::mpm::nodeBoundary::constrainGhosts
-(
-    DynamicList<label>& slip,
-    DynamicList<label>& fixed
-)
-{
-    const label nDim = grid_.nDim();
-
-    // Next to a node of a wall and outside of the mesh
-    auto forGhosts = [&](const label node, const auto& op)
-    {
-        index3 o;
-        for (o[2] = (nDim == 3 ? -1 : 0); o[2] <= (nDim == 3); ++o[2])
-        for (o[1] = -1; o[1] <= 1; ++o[1])
-        for (o[0] = -1; o[0] <= 1; ++o[0])
-        {
-            label ghost = node;
-            for (label d = 0; d < nDim; ++d) ghost += o[d]*grid_.stride(d);
-
-            bool outside = true;
-            for (label corner = 0; corner < (1 << nDim); ++corner)
-            {
-                label cell = ghost;
-                for (label d = 0; d < nDim; ++d)
-                {
-                    if ((corner >> d) & 1) cell -= grid_.stride(d);
-                }
-                outside = outside
-                 && (
-                        cell < 0 || cell >= grid_.nNodes()
-                     || grid_.cellRank(cell) == backgroundGrid::missing
-                    );
-            }
-            if (outside) op(ghost, o);
-        }
-    };
-
-    // A ghost stands still in the directions in which it lies behind the
-    // wall, and in those of its wall's node
-    const label nSlip = slip.size();
-    for (label i = 0; i < nSlip; ++i)
-    {
-        const nodeVector mask = slipMask_[i];
-        forGhosts
-        (
-            slip[i],
-            [&](const label ghost, const index3& o)
-            {
-                // Behind a wall, not beside it
-                for (label d = 0; d < nDim; ++d)
-                {
-                    if (o[d] && mask[d] != 0) return;
-                }
-                slip.append(ghost);
-                slipMask_.push_back(mask);
-            }
-        );
-    }
-    const label nFixed = fixed.size();
-    for (label i = 0; i < nFixed; ++i)
-    {
-        const nodeVector value = fixedValue_[i];
-        forGhosts
-        (
-            fixed[i],
-            [&](const label ghost, const index3&)
-            {
-                fixed.append(ghost);
-                fixedValue_.push_back(value);
-            }
-        );
-    }
 }
 
 
