@@ -349,6 +349,10 @@ class Setup:
         for name, text in self.files().items():
             (path/name).parent.mkdir(parents=True, exist_ok=True)
             (path/name).write_text(text)
+        return self.caseAt(path)
+
+    def caseAt(self, path):
+        """One that was written before"""
         return RunningCase(path, self)
 
 

@@ -127,6 +127,9 @@ class ElementTest:
         element.caseOf(path, files["system/soilElementTestDict"])
         with open(path/"system"/"controlDict", "a") as control:
             control.write(files["system/controlDict"])
+        return self.caseAt(path)
+
+    def caseAt(self, path):
         return RunningElementTest(path, self)
 
 
@@ -573,8 +576,9 @@ def crater(figures, case):
     hard(figures, case)
     bed = clouds(case, case.times[-1])["soil"]
     below = bed.x[np.abs(bed.x[:, 0] - 0.15) < 0.02, 1]
+    # But for single grains in the air
     figures.atMost("bed under the jet over its depth at the start",
-                   below.max()/0.1, 0.97)
+                   float(np.quantile(below, 0.99))/0.1, 0.97)
 
 
 def sandIntoWater(n=1, points=2, end=1):

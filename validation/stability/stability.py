@@ -2,7 +2,9 @@
 """The hard cases of the specification and the guards that keep them stable, at
 the large sizes of test/cases/hardCases.py."""
 
+import contextlib
 import copy
+import io
 import json
 import shutil
 import sys
@@ -85,6 +87,17 @@ class HardRun(study.Run):
     @property
     def figures(self):
         return json.loads((self.path/FIGURES).read_text())
+
+    def judgeAgain(self):
+        """By the bounds of today; a guard's figure stays, and so does a run
+        that stopped"""
+        rows = self.figures
+        if self.name.startswith("guard") or len(rows) == 1:
+            return
+        bounds = Bounds(self.name)
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.judge(bounds, self.setup.caseAt(self.path))
+        (self.path/FIGURES).write_text(json.dumps(bounds.rows) + "\n")
 
     @property
     def cost(self):
@@ -177,6 +190,7 @@ def evaluate(done, results):
                              "limit", "holds"]}
     failed = []
     for name, run in done.items():
+        run.judgeAgain()
         for bound, value, relation, limit, holds in run.figures:
             for key, entry in zip(table, [
                     name, run.about["text"], bound, value, relation, limit,
