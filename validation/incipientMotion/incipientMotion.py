@@ -136,16 +136,18 @@ def evaluate(done, results):
         if not here:
             continue
         low, high, middle = threshold(here)
-        out[f"stressAtRest_h{h:g}"] = low
-        out[f"stressInMotion_h{h:g}"] = high
-        out[f"thresholdStress_h{h:g}"] = middle
-        for name, tau in critical.items():
-            out[f"thresholdOver{name}_h{h:g}"] = middle/tau
-        half = min(here, key=lambda r: r["aim"])
-        out[f"transportAtHalfShields_h{h:g}"] = half["transport"]
-        out[f"longestPathOverDAtHalfShields_h{h:g}"] = \
-            half["longestPathOverD"]
-        out[f"stressAtHalfShields_h{h:g}"] = half["stress"]
+        if np.isfinite(middle):
+            out[f"stressAtRest_h{h:g}"] = low
+            out[f"stressInMotion_h{h:g}"] = high
+            out[f"thresholdStress_h{h:g}"] = middle
+            for name, tau in critical.items():
+                out[f"thresholdOver{name}_h{h:g}"] = middle/tau
+        else:
+            print(f"h = {h:g}: no threshold between these stresses")
+        half = min(here, key=lambda r: abs(r["stress"] - SHIELDS_HALF))
+        for key in ["stress", "transport", "longestPathOverD",
+                    "movedFurtherThanD"]:
+            out[f"{key}NearHalfShields_h{h:g}"] = half[key]
         panel.loglog([r["shieldsParameter"] for r in here],
                      [max(r["transport"], 1e-6) for r in here], marker,
                      label=f"mpmFoam, h {h:g}")
