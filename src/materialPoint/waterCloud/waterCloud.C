@@ -455,6 +455,19 @@ void Foam::mpm::waterCloud::finishPoints()
 
 Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
 {
+    // Else the speed of sound would be negative, and the time step
+    for (label p = 0; !(minJ_ > 0) && p < size(); ++p)
+    {
+        if (J()[p] > 0) continue;
+        FatalErrorInFunction
+            << "cloud " << name() << ", point " << label(points_.column(id_)[p])
+            << ", mesh cell " << grid_.meshCell(points_.cell()[p])
+            << " has the volume ratio J = " << J()[p]
+            << "; it must be positive." << nl
+            << "    The flow is unstable: lower maxCo (or deltaT if"
+            << " adjustTimeStep is no)." << exit(FatalError);
+    }
+
     // Water may come in before there is any
     return fluid_.soundSpeed(open_.valid() ? min(minJ_, scalar(1)) : minJ_);
 }
