@@ -9,7 +9,8 @@ speed, soil over it in the colour of sand, with the outline of the mesh and the
 time. In 2D what the mesh leaves out of its box is solid, and grey. A case
 without time directories of its own is read from its processor directories;
 --decomposed asks for that. --animation makes one moving picture,
-<clouds>.gif, of the times named (default: all) instead. Prints for each time how many points ParaView found:
+<clouds>.gif, of the times named (default: all) instead. Prints for each time
+how many points ParaView found:
 `<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`.
 """
 
@@ -17,6 +18,7 @@ import argparse
 import math
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -222,8 +224,11 @@ def showWater(points, view, maxSpeed, pixelSize):
 def main():
     arguments = parse()
     case = arguments.case
-    output = arguments.output or case
-    output.mkdir(parents=True, exist_ok=True)
+    target = arguments.output or case
+    target.mkdir(parents=True, exist_ok=True)
+    # Pictures of a film leave no files, and replace none
+    frames = tempfile.TemporaryDirectory() if arguments.animation else None
+    output = Path(frames.name) if frames else target
     reader = openCase(case, arguments.cloud, arguments.decomposed)
     shown = "_".join(r.split("/")[1] for r in reader.MeshRegions
                      if r.startswith("lagrangian/"))
@@ -316,17 +321,15 @@ def main():
         print(f"{time:.10g} s: {number or '0 points'}, {path}")
 
     if arguments.animation:
-        animate(pictures, output/f"{shown}.gif", arguments.animation)
+        animate(pictures, target/f"{shown}.gif", arguments.animation)
 
 
 def animate(pictures, path, seconds):
-    """One GIF of the pictures, which go"""
+    """One GIF of the pictures"""
     frames = [Image.open(picture).convert("P", palette=Image.ADAPTIVE)
               for picture in pictures]
     frames[0].save(path, save_all=True, append_images=frames[1:],
                    duration=1000*seconds, loop=0)
-    for picture in pictures:
-        picture.unlink()
     print(f"{len(frames)} times, {path}")
 
 

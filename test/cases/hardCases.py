@@ -22,6 +22,7 @@ import test_soilElementTest as element
 from caseBuilder import (
     G, RHO, RunningCase, Setup, box, damBreak, foamText, header, hydrostatic)
 from checks import healthy, meanLevel
+from test_coupling import momentum
 from test_drySoil import SAND as SAND_C
 from test_wallJet import CloudPoints, clouds, sound
 
@@ -224,17 +225,6 @@ def level(figures, case, depth, bound, times=1):
                     for t in case.times[-times:]])
     figures.atMost("change of the mean level over the depth",
                    abs(float(mean)/depth - 1), bound)
-
-
-def momentum(case, time):
-    """Of all clouds, and the sum of m |U|"""
-    total, size = np.zeros(3), 0.0
-    for cloud in case.setup.clouds:
-        points = CloudPoints(case, cloud, time)
-        p = points.mass[:, None]*points.U
-        total += p.sum(axis=0)
-        size += np.abs(p).sum()
-    return total, size
 
 
 def momentumKept(figures, case, first, last):

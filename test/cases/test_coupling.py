@@ -11,6 +11,7 @@ SOIL = {"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
 
 
 def momentum(case, time):
+    """Of all clouds, and the sum of m |U|"""
     total, size = np.zeros(3), 0.0
     for cloud in case.setup.clouds:
         points = CloudPoints(case, cloud, time)

@@ -276,21 +276,26 @@ def testGoesOnExactly(serial, tmp_path, figures):
         np.abs(last[0] - last[1]).max()), 1e-10)
 
 
+def render(case, output, *arguments):
+    """What renderPoints prints"""
+    root = Path(os.environ["MPMFOAM_DIR"])
+    result = subprocess.run(
+        [root/"etc"/"pvpythonOffscreen", root/"etc"/"python"/"renderPoints.py",
+         "--case", case.path, "--output", output, *arguments],
+        capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
 @needsParaView
 def testPicture(serial, tmp_path, figures):
     """Both clouds in one picture: sand where there is sand, solids in grey"""
-    scripts = Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"
-    result = subprocess.run(
-        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
-         str(scripts/"renderPoints.py"),
-         "--case", str(serial.path), "--output", str(tmp_path),
-         "--window", "0.5", "1.3", "0", "0.25", "0.3"],
-        capture_output=True, text=True, timeout=120)
-    assert result.returncode == 0, result.stdout + result.stderr
+    text = render(serial, tmp_path, "--window", "0.5", "1.3", "0", "0.25",
+                  "0.3")
     for cloud in CLOUDS:
         n = len(clouds(serial, "0.3")[cloud].id)
         figures.holds(f"{n} points of {cloud}",
-                      f"{n} points of {cloud}" in result.stdout)
+                      f"{n} points of {cloud}" in text)
 
     import matplotlib.image
     image = matplotlib.image.imread(tmp_path/"water_soil_t0.3.png")[..., :3]
@@ -313,14 +318,9 @@ def testPicture(serial, tmp_path, figures):
 @needsParaView
 def testAnimation(serial, tmp_path, figures):
     from PIL import Image
-    scripts = Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"
-    result = subprocess.run(
-        [os.environ["MPMFOAM_DIR"] + "/etc/pvpythonOffscreen",
-         str(scripts/"renderPoints.py"),
-         "--case", str(serial.path), "--output", str(tmp_path),
-         "--animation", "0.2", "0.1", "0.3"],
-        capture_output=True, text=True, timeout=120)
-    assert result.returncode == 0, result.stdout + result.stderr
+    still = tmp_path/"water_soil_t0.1.png"
+    still.write_text("made before")
+    render(serial, tmp_path, "--animation", "0.2", "0.1", "0.3")
     with Image.open(tmp_path/"water_soil.gif") as film:
         figures.equal("pictures in the film", film.n_frames, 2)
         frames = []
@@ -330,8 +330,9 @@ def testAnimation(serial, tmp_path, figures):
         figures.equal("ms for each", film.info["duration"], 200)
     figures.atLeast("share of pixels that change", float(
         (np.abs(frames[1] - frames[0]).max(axis=-1) > 40).mean()), 0.01)
-    figures.equal("other files", [p.name for p in tmp_path.iterdir()],
-                  ["water_soil.gif"])
+    figures.equal("files", sorted(p.name for p in tmp_path.iterdir()),
+                  ["water_soil.gif", still.name])
+    figures.equal("a picture made before", still.read_text(), "made before")
 
 
 def testErosionFigure(serial, figures):

@@ -5,7 +5,6 @@ with the cap that the tutorial recommends: time, steps, what limited them, what
 each part cost, and the hole. Two ranks against one over the first tenth of a
 second, where both have the same to do."""
 
-import re
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ sys.path.insert(0, str(REPOSITORY/"etc"/"python"))
 sys.path.insert(0, str(HERE.parent/"wallJet"))
 
 import wallJet  # noqa: E402
-from mpmfoam import metrics, reference, study, style  # noqa: E402
+from mpmfoam import metrics, reference, runLog, study, style  # noqa: E402
 
 # dx = 0.004, dy = 0.05/12
 MESH = {"nx0": 175, "nx1": 10, "nx2": 245, "nx3": 125,
@@ -36,12 +35,9 @@ def runs():
 
 
 def costs(run):
-    """Seconds of each part, from the table at the end of the log"""
+    """Seconds of each part"""
     text = (run.path/"log.mpmFoam").read_text(errors="replace")
-    table = text[text.rindex("\nCost"):]
-    return {name.strip(): float(seconds) for name, seconds in re.findall(
-        r"^    (\S.*?) +([0-9.e+-]+) +[0-9.e+-]+ +[0-9.e+-]+$", table,
-        re.MULTILINE)}
+    return {name: row[0] for name, row in runLog.costs(text).items()}
 
 
 def evaluate(done, results):
