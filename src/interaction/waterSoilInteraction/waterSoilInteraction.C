@@ -9,6 +9,7 @@ License
 #include "dictionaryEntries.H"
 #include "debug.H"
 #include "registerSwitch.H"
+#include <algorithm>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -90,6 +91,68 @@ void Foam::mpm::waterSoilInteraction::exchangeMomentum
 }
 
 
+void Foam::mpm::waterSoilInteraction::findReach()
+{
+    // Nodes that both clouds may have; those that other ranks have, too, are
+    // among them
+    auto& reach = fields_.ranges;
+    reach.clear();
+    const auto& water = water_.nodeRanges();
+    const auto& soil = soil_.nodeRanges();
+    for (size_t w = 0, s = 0; w < water.size() && s < soil.size();)
+    {
+        const label first = max(water[w].first, soil[s].first);
+        const label last = min(water[w].second, soil[s].second);
+        if (first < last) reach.emplace_back(first, last);
+        if (water[w].second < soil[s].second) ++w;
+        else ++s;
+    }
+
+    // In each direction by what tiles that hold a node reach beyond it, with
+    // whole ranges: first along x, then by copies in other rows
+    auto merge = [&]()
+    {
+        std::sort(reach.begin(), reach.end());
+        size_t n = 0;
+        for (const auto& range : reach)
+        {
+            if (n && range.first <= reach[n - 1].second)
+            {
+                label& end = reach[n - 1].second;
+                end = max(end, range.second);
+            }
+            else
+            {
+                reach[n++] = range;
+            }
+        }
+        reach.resize(n);
+    };
+    const label nNodes = grid_.nNodes();
+    const label beyond = grid_.tileWidth() - 1;
+    for (auto& range : reach)
+    {
+        range.first = max(range.first - beyond, label(0));
+        range.second = min(range.second + beyond, nNodes);
+    }
+    for (label d = 1; d < grid_.nDim(); ++d)
+    {
+        const size_t n = reach.size();
+        for (label j = -beyond; j <= beyond; ++j)
+        {
+            const label shift = j*grid_.stride(d);
+            for (size_t r = 0; j && r < n; ++r)
+            {
+                const label first = max(reach[r].first + shift, label(0));
+                const label last = min(reach[r].second + shift, nNodes);
+                if (first < last) reach.emplace_back(first, last);
+            }
+        }
+        merge();
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
@@ -108,6 +171,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     cost_(cost),
     divergenceForm_(divergenceForm),
     implicitDrag_(implicitDrag),
+    fields_(water.boundary().inverseVolume()),
     nPacked_(0)
 {
     if (!implicitDrag_)
@@ -129,7 +193,6 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
         }
     );
 
-    fields_.resize(grid_.nNodes());
     water_.couple(fields_);
     soil_.couple(fields_);
 
@@ -153,7 +216,7 @@ void Foam::mpm::waterSoilInteraction::mixture()
     const std::vector<scalar>& inverseVolume =
         water_.boundary().inverseVolume();
     const nodalFields& soil = soil_.nodes();
-    nodalFields& water = water_.nodes();
+    const nodalFields& water = water_.nodes();
 
     for (const label first : mixed_) fields_.mixed[first] = 0;
     mixed_.clear();
@@ -162,27 +225,30 @@ void Foam::mpm::waterSoilInteraction::mixture()
     bulkVolume_.clear();
     nPacked_ = 0;
 
-    // Water alone, everywhere
-    for (const auto& range : water_.nodeRanges())
-    {
-        for (label i = range.first; i < range.second; ++i)
+    // As water alone, where the two were near
+    fields_.forNodes
+    (
+        [&](const label i)
         {
-            nodeVector flux = water.velocity[i];
-            flux[dim] = 1;
-            fields_.mixture[i] = flux;
             fields_.inversePoreVolume[i] = inverseVolume[i];
-            fields_.saturation[i] = 1;
             fields_.pressureForce[i] = nodeVector{};
         }
-    }
-
-    // Where there is soil
-    for (const auto& range : soil_.nodeRanges())
-    {
-        for (label i = range.first; i < range.second; ++i)
+    );
+    findReach();
+    fields_.forNodes
+    (
+        [&](const label i)
         {
-            fields_.pressureForce[i] = nodeVector{};
-            if (!(soil.momentum[i][dim] > 0)) continue;
+            const bool wet = water.momentum[i][dim] > 0;
+
+            if (!(soil.momentum[i][dim] > 0))
+            {
+                nodeVector flux = water.velocity[i];
+                flux[dim] = 1;
+                fields_.mixture[i] = flux;
+                fields_.saturation[i] = wet;
+                return;
+            }
 
             for (const label offset : touching_)
             {
@@ -194,7 +260,6 @@ void Foam::mpm::waterSoilInteraction::mixture()
                 }
             }
 
-            const bool wet = water.momentum[i][dim] > 0;
             const scalar control = 1/inverseVolume[i];
             const scalar solid = solidVolume(i);
             const scalar liquid = wet ? waterVolume(i) : 0;
@@ -230,7 +295,7 @@ void Foam::mpm::waterSoilInteraction::mixture()
                 bulkVolume_.push_back(occupied*fields_.saturation[i]);
             }
         }
-    }
+    );
     fields_.contact = !nodes_.empty();
     cost_.stop();
 }
@@ -241,15 +306,21 @@ void Foam::mpm::waterSoilInteraction::keepWaterPressure()
     if (!divergenceForm_) return;
 
     cost_.start("coupling");
+
+    const label dim = grid_.nDim();
+
     grid_.exchange().sum(fields_.pressureForce);
-    for (const auto& range : water_.nodeRanges())
-    {
-        for (label i = range.first; i < range.second; ++i)
+    fields_.forNodes
+    (
+        [&](const label i)
         {
-            water_.nodes().force[i] += fields_.pressureForce[i];
+            if (water_.nodes().momentum[i][dim] > 0)
+            {
+                water_.nodes().force[i] += fields_.pressureForce[i];
+            }
             fields_.pressureForce[i] = nodeVector{};
         }
-    }
+    );
     cost_.stop();
 }
 
@@ -269,33 +340,30 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     if (divergenceForm_)
     {
         // What is left is of the points of soil
-        for (const auto& range : soil_.nodeRanges())
-        {
-            for (label i = range.first; i < range.second; ++i)
+        fields_.forNodes
+        (
+            [&](const label i)
             {
-                soil.force[i] += fields_.pressureForce[i];
+                if (soil.momentum[i][dim] > 0)
+                {
+                    soil.force[i] += fields_.pressureForce[i];
+                }
             }
-        }
+        );
         cost_.stop();
         return;
     }
 
     // Water takes all of it, and gives soil its share
-    for (const auto& range : water_.nodeRanges())
-    {
-        for (label i = range.first; i < range.second; ++i)
+    fields_.forNodes
+    (
+        [&](const label i)
         {
-            water.force[i] += fields_.pressureForce[i];
-        }
-    }
-    for (const auto& range : soil_.nodeRanges())
-    {
-        for (label i = range.first; i < range.second; ++i)
-        {
-            if (!(soil.momentum[i][dim] > 0)) continue;
+            const bool wet = water.momentum[i][dim] > 0;
+            if (wet) water.force[i] += fields_.pressureForce[i];
+            if (!(soil.momentum[i][dim] > 0)) return;
 
             const scalar solid = solidVolume(i);
-            const bool wet = water.momentum[i][dim] > 0;
             const scalar liquid =
                 wet ? min(waterVolume(i), max(1/inverseVolume[i] - solid, 0.0))
               : 0;
@@ -304,7 +372,7 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
             soil.force[i] += share;
             if (wet) water.force[i] -= share;
         }
-    }
+    );
     cost_.stop();
 }
 

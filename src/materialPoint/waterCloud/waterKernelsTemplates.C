@@ -194,10 +194,10 @@ public:
         this->exchangeForces();
         this->filter();
 
-        if (c.coupling_)
+        if (c.coupling_ && c.coupling_->contact)
         {
             c.cost_.start("pore pressure");
-            this->forActiveNodes
+            c.coupling_->forNodes
             (
                 [&](const label i)
                 {
