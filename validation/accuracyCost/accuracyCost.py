@@ -97,7 +97,7 @@ def evaluate(done, results):
         if not here or not scene.ready(here):
             continue
         rows = [row(run, scene.error(run, here)) for run in here.values()
-                if run.about["factor"] != "reference"]
+                if not scene.isReference(run)]
         own = [r for r in rows if r["factor"] != "interFoam"]
         best = front(own)
         for r in rows:
