@@ -542,6 +542,18 @@ def testStrictKeywords(tmp_path, figures, strict):
     figures.holds("the solver runs", case.log.finished)
 
 
+@pytest.mark.parametrize("transfer, told", [
+    ("PIC", ["apicRate", "flipDampingRate"]), ("FLIP", ["apicRate"]),
+    ("APIC", ["flipDampingRate"])])
+def testRateOfAnotherTransfer(tmp_path, figures, transfer, told):
+    """A rate that the chosen transfer does not have is a warning"""
+    setup = base()
+    setup.water.update(transfer=transfer, apicRate=100, flipDampingRate=20)
+    result = setup.write(tmp_path/"case").prepare().solve()
+    figures.equal("keywords told to have no effect", sorted(set(re.findall(
+        r"keyword (\w+) has no effect", result.text))), told)
+
+
 @pytest.mark.parametrize("how", ["smaller", "obstacle"])
 def testMeshChangedAfterwards(tmp_path, figures, how):
     """Points that lie in no cell any more"""

@@ -270,9 +270,11 @@ class ColumnCollapse(Scene):
 
     def variants(self):
         yield from super().variants()
-        for name, entries in [("APIC", {"transfer": "APIC"}),
-                              ("FLIP 5/s", {"flipDampingRate": 5}),
-                              ("FLIP 80/s", {"flipDampingRate": 80})]:
+        # The tutorial takes APIC at 20/s
+        for name, entries in [("FLIP 20/s", {"transfer": "FLIP",
+                                             "flipDampingRate": 20}),
+                              ("APIC 5/s", {"apicRate": 5}),
+                              ("APIC 80/s", {"apicRate": 80})]:
             yield ("transfer", name, 1, self.points, {PROPERTIES: {
                 f"soil/{k}": v for k, v in entries.items()}})
         for cap in [5, 10, 20]:

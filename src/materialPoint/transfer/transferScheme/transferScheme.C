@@ -5,6 +5,7 @@ License
 
 #include "FlatOutput.H"
 #include "transferScheme.H"
+#include <utility>
 
 namespace Foam
 {
@@ -39,6 +40,20 @@ Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
             << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
+
+    // The rate of another scheme would be ignored in silence
+    const std::pair<const char*, const char*> rates[] =
+        {{"apicRate", "APIC"}, {"flipDampingRate", "FLIP"}};
+    for (const auto& [keyword, scheme] : rates)
+    {
+        if (name != scheme && cloudDict.found(keyword))
+        {
+            IOWarningInFunction(cloudDict)
+                << "keyword " << keyword << " has no effect: it belongs to"
+                << " transfer " << scheme << ", chosen is " << name << endl;
+        }
+    }
+
     return found()(cloudDict, defaultRate);
 }
 
