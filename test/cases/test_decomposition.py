@@ -1,4 +1,5 @@
-"""Ranks get the same work: decomposePar with weights of setMaterialPoints."""
+"""Ranks get the same work: decomposePar with weights of setMaterialPoints, and
+the same part of each cloud, with its decomposition."""
 
 import re
 
@@ -24,11 +25,11 @@ def decompose(case, ranks, n, method, weights, times=None):
 
 
 def imbalance(case, time, weight):
-    """Largest work of a rank over the mean"""
+    """Largest work of a rank over the mean, of the clouds with a weight"""
     work = []
     for processor in case.case.processors:
         files = {cloud: processor/time/"lagrangian"/cloud/"id"
-                 for cloud in case.setup.clouds}
+                 for cloud in weight}
         # Without points a rank has no file
         work.append(sum(weight[cloud]*len(readList(file))
                         for cloud, file in files.items() if file.is_file()))
@@ -84,6 +85,45 @@ def testSoil(tmp_path, figures):
     case.solve(ranks=2)
     figures.holds("goes on with them", float(case.times[-1]) > float(time),
                   case.times[-1])
+
+
+@pytest.mark.parametrize("ranks", [2, 3, 4])
+def testEachCloud(tmp_path, figures, ranks):
+    """Deep water at one end, a bed under shallow water over the rest: with equal
+    sums alone one rank would have most of the water, another most of the soil"""
+    case = Setup(
+        cells=(120, 20), h=0.01, points=1, energy=False,
+        regions={"deep": hydrostatic((0, 0), (0.4, 0.18)),
+                 "shallow": hydrostatic((0.4, 0.1), (1.2, 0.12))},
+        soilRegions={"bed": box((0.4, 0), (1.2, 0.1), stress="geostatic")},
+    ).until(0.002).write(tmp_path/"case").prepare()
+    case.run("setMaterialPoints", "-weights")
+    decompose(case, ranks, (ranks, 1, 1), "simple", True)
+    figures.atLeast("water by weights: most of a rank over the mean",
+                    imbalance(case, "0", {"water": 1}), 1.25)
+
+    (case.path/"system"/"decomposeParDict").write_text(
+        header("decomposeParDict") + foamText({
+            "numberOfSubdomains": ranks, "method": "manual",
+            "manualCoeffs": {"dataFile": '"cellDecomposition"'}}))
+    case.run("setMaterialPoints", "-decomposition")
+    case.run("decomposePar", "-force")
+    for cloud in ["water", "soil"]:
+        # Three parts of two kinds of work need not exist, and a column is
+        # 2.5 % of the deep water: more of a part of it
+        figures.atMost(f"{cloud}: most of a rank over the mean",
+                       imbalance(case, "0", {cloud: 1}),
+                       1.05 if ranks == 2 else 1.15)
+    case.solve(ranks=ranks)
+    figures.holds("it runs", case.log.finished)
+
+
+def testDecompositionIsSerial(tmp_path, figures):
+    """It comes before decomposePar, and needs its dictionary"""
+    case = damBreak().write(tmp_path/"case").prepare()
+    result = case.run("setMaterialPoints", "-decomposition", check=False)
+    figures.equal("exit status", result.status, 1)
+    figures.holds("named", "decomposeParDict" in result.text)
 
 
 def testBadWeight(tmp_path, figures):

@@ -34,6 +34,17 @@ Description
     \c simple divides each direction by itself: with more than one of them its
     parts are equal in rows and columns only.
 
+    With \c -decomposition it places nothing, either, but gives each rank the
+    same part of \e each cloud, which with water and soil is worth more
+    (columnDecomposition.H): columns of cells along the longest direction, for
+    the numberOfSubdomains of system/decomposeParDict, to
+    constant/cellDecomposition. There:
+
+    \verbatim
+        method          manual;
+        manualCoeffs    { dataFile "cellDecomposition"; }
+    \endverbatim
+
 Usage
     \verbatim
     water
@@ -87,6 +98,8 @@ Usage
 #include "sigFpe.H"
 #include "FlatOutput.H"
 #include "dictionaryEntries.H"
+#include "columnDecomposition.H"
+#include "labelIOList.H"
 #include "materialPointSystem.H"
 #include "cellZoneRegion.H"
 #include "pointRegion.H"
@@ -570,6 +583,100 @@ static void writeWeights
 }
 
 
+//- Write the rank of each cell, by its points
+static void writeDecomposition
+(
+    const fvMesh& mesh,
+    mpm::materialPointSystem& points
+)
+{
+    if (Pstream::parRun())
+    {
+        FatalErrorInFunction
+            << "option -decomposition: the case is decomposed already." << nl
+            << "    Allowed: in serial, before decomposePar"
+            << exit(FatalError);
+    }
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            "decomposeParDict",
+            mesh.time().system(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+    const label nRanks = label
+    (
+        mpm::readBounded
+            (dict, "numberOfSubdomains", dimless, 1, 1e6, true, true)
+    );
+
+    // Columns of the longest direction
+    const mpm::lattice& cells = points.grid().cells();
+    const boundBox& bounds = mesh.bounds();
+    label along = 0;
+    for (label d = 1; d < cells.nDim(); ++d)
+    {
+        const scalar n = bounds.span()[cells.axis(d)]/cells.spacing(d);
+        const label a = cells.axis(along);
+        if (n > bounds.span()[a]/cells.spacing(along) + 0.5) along = d;
+    }
+    const label axis = cells.axis(along);
+    const scalar spacing = cells.spacing(along);
+    auto column = [&](const label celli)
+    {
+        return label((mesh.C()[celli][axis] - bounds.min()[axis])/spacing);
+    };
+
+    List<scalarList> work(points.clouds().size());
+    forAll(work, k)
+    {
+        const mpm::materialPointCloud& cloud = points.clouds()[k];
+        work[k].resize(label(bounds.span()[axis]/spacing + 0.5), Zero);
+        for (label p = 0; p < cloud.size(); ++p)
+        {
+            ++work[k][column(cloud.grid().meshCell(cloud.points().cell()[p]))];
+        }
+    }
+
+    const labelList rank(mpm::shareColumns(work, nRanks));
+    labelIOList cellRank
+    (
+        IOobject
+        (
+            "cellDecomposition",
+            mesh.facesInstance(),
+            mesh,
+            IOobject::NO_READ,
+            IOobject::NO_WRITE,
+            false
+        ),
+        mesh.nCells()
+    );
+    forAll(cellRank, celli) cellRank[celli] = rank[column(celli)];
+
+    forAll(work, k)
+    {
+        scalarList ofRank(nRanks, Zero);
+        forAll(rank, c) ofRank[rank[c]] += work[k][c];
+        Info<< "Cloud " << points.clouds()[k].name() << ": points of the ranks "
+            << flatOutput(ofRank) << nl;
+    }
+    if (!cellRank.write())
+    {
+        FatalErrorInFunction
+            << "cannot write " << cellRank.objectPath()
+            << "; is the disk full?" << exit(FatalError);
+    }
+    Info<< nl << "Written " << cellRank.objectPath() << nl << nl << "End\n"
+        << endl;
+}
+
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -583,6 +690,12 @@ int main(int argc, char *argv[])
         "weights",
         "Place nothing; write the cost of the cells, pointWeights, for the"
         " weightField of decomposePar"
+    );
+    argList::addBoolOption
+    (
+        "decomposition",
+        "Place nothing; write the rank of the cells, cellDecomposition, for the"
+        " method manual of decomposePar: the same part of each cloud"
     );
     argList::addOption
     (
@@ -624,6 +737,13 @@ int main(int argc, char *argv[])
         }
         points.read(runTime);
         writeWeights(mesh, points, soilWeight);
+        return 0;
+    }
+
+    if (args.found("decomposition"))
+    {
+        points.read(runTime);
+        writeDecomposition(mesh, points);
         return 0;
     }
 

@@ -151,7 +151,7 @@ class Run:
         """The commands in full"""
         if self.ranks == 1:
             return self.commands
-        return [*self.commands[:-1], "setMaterialPoints -weights",
+        return [*self.commands[:-1], "setMaterialPoints -decomposition",
                 "decomposePar",
                 f"mpirun -np {self.ranks} {self.commands[-1]} -parallel",
                 "reconstructPar"]
