@@ -138,7 +138,7 @@ def massError(run, cloud):
 
 
 def measures(run):
-    """What cases.md asks of the wall jet, from the course of scourProfile"""
+    """What is asked of the wall jet, from the course of scourProfile"""
     course = dict(zip(COLUMNS, readDat(
         run.path, "scour", "scourProfile.dat").T))
     time = course["time"]

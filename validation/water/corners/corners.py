@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""A jet under a gate's lip and over the edge of a step, and a wave over a
-block: are velocities near the corners smooth?"""
+"""A jet under a gate's lip and over the edge of a step: are velocities near the corners smooth?"""
 
 import sys
 from pathlib import Path
