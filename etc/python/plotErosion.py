@@ -62,7 +62,8 @@ def drawMap(panel, fig, found, criterion):
         ["neither", "exceeded", "grains move", "both"], fontsize="small")
     bed = x[found["hasBed"].any(axis=0)]
     panel.set(xlabel="x [m]", ylabel="t [s]", xlim=(bed[0], bed[-1]),
-              title=f"{criterion} exceeded, grains faster than 0.01 m/s")
+              title=f"{criterion} exceeded, grains faster than "
+              f"{found['movingSpeed']:g} m/s")
 
 
 def main():

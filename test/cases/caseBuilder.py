@@ -462,6 +462,23 @@ class RunningCase:
         self.run("setMaterialPoints")
         return self
 
+    def cellZone(self, name, lower, upper):
+        """A zone of the cells between two corners in x and y; after
+        blockMesh"""
+        corners = box(lower, upper)
+        (self.path/"system"/"topoSetDict").write_text(
+            header("topoSetDict") + f"""
+actions
+(
+    {{ name {name}; type cellSet; action new; source boxToCell;
+      box {foamText(corners["min"])} {foamText(corners["max"])}; }}
+    {{ name {name}; type cellZoneSet; action new; source setToCellZone;
+      set {name}; }}
+);
+""")
+        self.run("topoSet")
+        return self
+
     def solve(self, ranks=1, check=True):
         result = self.run("mpmFoam", ranks=ranks, check=check)
         if check and not self.log.finished:

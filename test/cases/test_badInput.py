@@ -375,7 +375,16 @@ CASES = [
         edit=replace("0/U.water", r"\[0 1 -1 0 0 0 0\]",
                      "[0 1 -2 0 0 0 0]")),
 
+    Bad("unknownPressureForm", {
+        "file": SOLUTION, "keyword": "pressureForm", "value": r"\bgradiant\b",
+        "allowed": words("gradient", "divergence")},
+        setup=mpm(pressureForm="gradiant")),
+
     # Values
+    Bad("maxDeltaT", {
+        "file": CONTROL, "keyword": r"\bmaxDeltaT\b", "value": r"value 0\b",
+        "allowed": "0 < maxDeltaT"},
+        setup=lambda s: s.control.update(maxDeltaT=0), at="mpmFoam"),
     Bad("negativeDensity", {
         "file": PROPERTIES, "keyword": r"\brho0\b", "value": "-1000",
         "allowed": r"0 < rho0"}, setup=fluid(rho0=-1000)),

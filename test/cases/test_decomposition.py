@@ -118,6 +118,34 @@ def testEachCloud(tmp_path, figures, ranks):
     figures.holds("it runs", case.log.finished)
 
 
+@pytest.mark.parametrize("ranks", [3, 26])
+def testNothingThereYet(tmp_path, figures, ranks):
+    """A domain that an inlet will fill: each rank gets cells, or it is said
+    that there are too few"""
+    setup = damBreak()
+    setup.regions = {}
+    setup.sides["xmin"] = ("patch", {
+        "type": "fixedValue", "value": "uniform (1 0 0)"})
+    setup.water["inflowOutflow"] = {"inlets": {"in": {
+        "patch": "xmin", "velocity": (1, 0, 0)}}}
+    case = setup.write(tmp_path/"case").prepare()
+    (case.path/"system"/"decomposeParDict").write_text(
+        header("decomposeParDict") + foamText({
+            "numberOfSubdomains": ranks, "method": "manual",
+            "manualCoeffs": {"dataFile": '"cellDecomposition"'}}))
+    result = case.run("setMaterialPoints", "-decomposition", check=False)
+    if ranks > 25:
+        figures.equal("exit status", result.status, 1)
+        for part in ["numberOfSubdomains is 26", "longest direction", "25"]:
+            figures.holds(part, part in result.text)
+        return
+    case.run("decomposePar")
+    cells = [len(readList(p/"constant/polyMesh/cellProcAddressing"))
+             for p in case.case.processors]
+    figures.atLeast("fewest cells of a rank over the mean",
+                    min(cells)*ranks/sum(cells), 0.9)
+
+
 def testDecompositionIsSerial(tmp_path, figures):
     """It comes before decomposePar, and needs its dictionary"""
     case = damBreak().write(tmp_path/"case").prepare()

@@ -222,6 +222,48 @@ def testInitialStress(tmp_path, figures):
         1e-12)
 
 
+def testStressUnderZone(tmp_path, figures):
+    """A cellZone weighs on what lies below it; on ranks that is refused"""
+    case = Setup(
+        cells=(10, 10), h=0.02, regions={}, energy=False,
+        soil={"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.695, "E": 1e6, "nu": 0.2}},
+        soilRegions={
+            "base": box((0, 0), (0.2, 0.06), stress="geostatic"),
+            "mound": {"type": "cellZone", "zone": "mound",
+                      "stress": "geostatic"}},
+    ).write(tmp_path/"case")
+    case.run("blockMesh")
+    case.cellZone("mound", (0, 0.06), (0.1, 0.1))
+    case.run("setMaterialPoints")
+    points = CloudPoints(case, "soil", "0")
+    x, y = points.x[:, 0], points.x[:, 1]
+    weight = 2650/1.695*G
+    exact = -weight*(np.where(x < 0.1, 0.1, 0.06) - y)
+    figures.atMost("error of the vertical stress, Pa",
+                   np.abs(points["sigma"][:, 3] - exact).max(),
+                   0.02/24*weight)
+    case.decompose(2)
+    result = case.run("setMaterialPoints", ranks=2, check=False)
+    figures.equal("exit status on ranks", result.status, 1)
+    figures.holds("named", "keyword stress is geostatic" in result.text
+                  and "before decomposePar" in result.text)
+
+
+def testWaterOfNoCloud(tmp_path, figures):
+    """A bed cannot be saturated in a scene without water"""
+    case = Setup(
+        cells=(10, 10), h=0.02, regions={}, energy=False,
+        soilRegions={"bed": box((0, 0), (0.2, 0.06), stress="geostatic",
+                                saturated=True)},
+    ).write(tmp_path/"case")
+    case.run("blockMesh")
+    result = case.run("setMaterialPoints", check=False)
+    figures.equal("exit status", result.status, 1)
+    figures.holds("named", "keyword saturated is yes" in result.text
+                  and "setMaterialPointsDict" in result.text)
+
+
 def testBedStays(tmp_path, figures):
     """1e5 steps with jittered points: the stress of the start, and no drift"""
     h, cells = 0.01, 12

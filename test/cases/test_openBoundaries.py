@@ -11,7 +11,8 @@ import pytest
 
 from mpmfoam.postProcessing import readColumns, readDat
 
-from caseBuilder import G, RHO, Setup, box, damBreak, hydrostatic
+from caseBuilder import (
+    G, RHO, Setup, box, damBreak, foamText, header, hydrostatic)
 from test_parallel import agree
 from test_restart import body, differing
 
@@ -353,15 +354,23 @@ def testElsewhere(tmp_path, figures):
                    b["allocated"][-1]/b["inside"][0], 1.1)
 
 
-@pytest.mark.parametrize("kind", ["limit", "region"])
+@pytest.mark.parametrize("kind", ["limit", "region", "cellZone"])
 def testOutletInside(tmp_path, figures, kind):
-    """Beyond a plane, and in a region, nothing stays"""
+    """Beyond a plane, and in a region, nothing stays. The mesh does not hold
+    z = 0, and the ranks have different numbers of cells."""
     outlet = {"limit": {"type": "limit", "point": (0.3, 0, 0),
                         "normal": (1, 0, 0)},
               "region": {"type": "region",
-                         "region": box((0.3, 0), (0.5, 0.16))}}[kind]
-    setup = channel(outlets={"sump": outlet}).until(0.5, write=0.1)
-    case = setup.write(tmp_path/"case").prepare().decompose(2, n=(2, 1, 1))
+                         "region": box((0.3, 0, 0.9), (0.5, 0.16, 1.1))},
+              "cellZone": {"type": "region", "region": {
+                  "type": "cellZone", "zone": "sump"}}}[kind]
+    setup = channel(outlets={"sump": outlet}, origin=(0, 0, 1)).until(
+        0.5, write=0.1)
+    case = setup.write(tmp_path/"case")
+    case.run("blockMesh")
+    case.cellZone("sump", (0.3, 0), (0.5, 0.16))
+    case.run("setMaterialPoints")
+    case.decompose(2, cellRank=case.case.cellCentres("0")[:, 0] > 0.15)
     case.solve(ranks=2)
     b = balanced(figures, case)
     figures.atLeast("points that left", b["sumpLeft"][-1], 100)
@@ -523,6 +532,33 @@ def testSoil(tmp_path, figures):
                     late.min(), -1e-6)
 
 
+def testSoilComesLater(tmp_path, figures):
+    """Nothing is there, and nothing moves, when the run begins: a step must
+    not be as long as the run"""
+    setup = Setup(
+        cells=(20, 8), h=0.02, regions={}, points=2, energy=False,
+        soilRegions={"bed": box((0, 0), (0.4, 0.06))},
+        soilWall="slip", functions={"balance": balanceOf(0.02, "soil")},
+        control={"maxDeltaT": None},
+        sides={"xmin": fixed(0, 0, 0), "xmax": ("patch", "zeroGradient")})
+    setup.soil["inflowOutflow"] = {
+        "inlets": {"feed": {
+            "patch": "xmin", "depth": 0.06, "pointsPerDirection": 2,
+            "velocity": "table ((0 (0 0 0)) (0.1 (0 0 0)) (0.11 (0.5 0 0)))"}},
+        "outlets": {"end": {"type": "patch", "patch": "xmax"}}}
+    case = setup.until(0.3).write(tmp_path/"case")
+    (case.path/"system"/"setMaterialPointsDict").write_text(
+        header("setMaterialPointsDict") + foamText({"soil": {
+            "pointsPerDirection": 2, "placement": "regular", "regions": {}}}))
+    case.prepare()
+    case.solve()
+    b = balanced(figures, case, "soil")
+    layer = 2650/1.695*0.06*0.01*0.02
+    asked = 2650/1.695*0.5*0.06*0.02*(0.3 - 0.105)
+    figures.atMost("mass that was asked for - entered, in layers",
+                   abs(asked - b["enteredMass"][-1])/layer, 1.5)
+
+
 def testSoundSpeed(tmp_path, figures):
     """From the inlet, where it is faster or higher than what is inside"""
     for name, inlet, expected in [
@@ -595,6 +631,20 @@ BAD = [
         inflowOutflow={"inlets": {"second": {
             "patch": "xmin", "velocity": (0.2, 0, 0), "depth": 0.1}}}),
 ]
+
+
+def testWaterLevelAbove(tmp_path, figures):
+    """An outlet that looks up has no level"""
+    setup = channel(outlets={"lid": {
+        "type": "patch", "patch": "ymax", "waterLevel": 0.1}})
+    setup.sides["ymax"] = ("patch", "zeroGradient")
+    case = setup.write(tmp_path/"case")
+    case.run("blockMesh")
+    result = case.run("setMaterialPoints", check=False)
+    figures.equal("exit status", result.status, 1)
+    for part in ["keyword waterLevel of outlet lid", "to the side",
+                 "materialPointProperties"]:
+        figures.contains("message", re.search(part, result.text), part)
 
 
 @pytest.mark.parametrize("bad", BAD, ids=lambda b: b.name)

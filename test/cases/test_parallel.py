@@ -1,6 +1,7 @@
 """Ranks: any number of them, however the mesh is cut, computes what one
 does."""
 
+import re
 import shutil
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 from mpmfoam import foamFile
 
-from caseBuilder import Setup, box, damBreak
+from caseBuilder import RHO, Setup, box, damBreak
 
 STEPS = 100
 BOUND = 1e-10
@@ -260,3 +261,44 @@ def testFewerRanksThanParts(tmp_path, figures):
     figures.holds("message names both numbers",
                   "4" in result.text and "2" in result.text
                   and "processor" in result.text)
+
+
+@pytest.mark.parametrize("how", [(1, 2, 1), (2, 1, 1), ragged], ids=name)
+def testFieldsEqualSerial(tmp_path, figures, how):
+    """Fields on the mesh, where a surface lies at the margin of a rank"""
+    setup = Setup(
+        cells=(16, 16), h=0.02, points=3,
+        regions={"water": box((0, 0), (0.32, 0.1599)),
+                 "drop": box((0.06, 0.25), (0.1, 0.3), velocity=(1, 0, 0))},
+    ).steps(7)
+    whole = setup.write(tmp_path/"serial").prepare()
+    case = whole.clone(tmp_path/"parallel")
+    whole.solve()
+    decompose(case, how)
+    case.solve(ranks=2)
+    case.run("reconstructPar")
+    last = whole.times[-1]
+    for field in ["alpha.water", "p", "U.water"]:
+        serial, parallel = (np.asarray(c.case.field(c.times[-1], field))
+                            for c in [whole, case])
+        figures.atMost(f"{field}: difference over the largest value",
+                       np.abs(serial - parallel).max()/np.abs(serial).max(),
+                       BOUND)
+    figures.atMost("volume in the cells over that of the water, difference",
+                   abs(whole.case.field(last, "alpha.water").sum()*0.02**3
+                       / (whole.points(last).mass/RHO).sum() - 1), 0.01)
+
+
+def testOnlyOneRankHasBoth(tmp_path, figures):
+    """Water and soil never meet on one of the ranks; the table of costs
+    has what each of them did"""
+    case = Setup(
+        cells=(40, 10), h=0.01, points=2, energy=False,
+        regions={"water": box((0, 0), (0.1, 0.05)),
+                 "pores": box((0.3, 0), (0.4, 0.05))},
+        soilRegions={"bed": box((0.3, 0), (0.4, 0.05), stress="geostatic")},
+    ).steps(20).write(tmp_path/"case").prepare().decompose(3, n=(3, 1, 1))
+    text = case.solve(ranks=3).text
+    for part in ["pore pressure", "water: particle-to-grid", "total"]:
+        figures.contains("table of costs", re.search(
+            rf"{part} +[0-9.]+", text), part)

@@ -277,6 +277,27 @@ def testHalfWrittenOnOneRank(tmp_path, figures, reference, damage):
     figures.equal("runs to its end", case.log.finished, True)
 
 
+@pytest.mark.parametrize("damage", [None, "x.gz", "materialPoints.gz"])
+def testCompressed(tmp_path, figures, damage):
+    """Compressed times are whole, too, unless they were cut off"""
+    case = damBreak().steps(10).write(tmp_path/"case").prepare()
+    case.solve()
+    case.change(control={"writeFormat": "ascii", "writeCompression": "on",
+                         "stopAt": "nextWrite"})
+    case.solve()
+    last = case.times[-1]
+    figures.holds("compressed",
+                  (case.path/last/CLOUD/"x.gz").is_file())
+    if damage:
+        file = next((case.path/last).rglob(damage))
+        file.write_bytes(file.read_bytes()[:-40])
+    text = case.solve().text
+    figures.equal("set aside", (case.path/f"{last}.incomplete").is_dir(),
+                  bool(damage))
+    figures.equal("named", f"Time directory {last} is incomplete" in text,
+                  bool(damage))
+
+
 def limitFileSize(bytes_):
     """For a child process: no file grows beyond this, as on a full disk"""
     def limit():

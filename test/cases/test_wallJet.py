@@ -499,11 +499,13 @@ def testRefused(tmp_path, figures, name):
                                 "allowed": r"\(1 0 0\)"}),
     ({"reservoir": (3, 4)}, {"keyword": r"\breservoir\b",
                              "value": r"\(3 4\)", "allowed": "between"}),
+    ({"water": "watr"}, {"keyword": r"\bwater\b", "value": r"\bwatr\b",
+                         "allowed": "cloud of water"}),
     ({"bedFraction": 1.5}, {"keyword": r"\bbedFraction\b",
                             "value": r"\b1\.5\b", "allowed": "< 1"}),
     ({"resrvoir": (0, 1)}, {"keyword": r"\bresrvoir\b",
                             "allowed": r"\breservoir\b"}),
-], ids=["cloud", "direction", "reservoir", "bedFraction", "misspelt"])
+], ids=["cloud", "direction", "reservoir", "water", "bedFraction", "misspelt"])
 def testScourProfileRefused(tmp_path, figures, entries, expect):
     s = bed(0.1)
     s.functions["scour"] = {**SCOUR, **entries}

@@ -97,8 +97,19 @@ int main(int argc, char *argv[])
 
         points.updateMeshFields();
         points.cost().start("output");
-        if (runTime.write() && runTime.writeTime())
+        const bool written = runTime.write();
+        if (runTime.writeTime())
         {
+            if (returnReduce(!written, orOp<bool>()))
+            {
+                FatalErrorInFunction
+                    << "time " << runTime.timeName() << " was not written"
+                    << (written ? " on another rank" : "")
+                    << ". Is the disk full, or the case read-only?" << nl
+                    << "    What was written before is whole: free space, and"
+                    << " start again from the latest time."
+                    << exit(FatalError);
+            }
             points.writeState();
         }
         points.cost().stop();

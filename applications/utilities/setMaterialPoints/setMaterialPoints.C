@@ -435,9 +435,35 @@ static scalar effectiveWeight
 {
     const bool saturated =
         mpm::readSwitchOrDefault(dict, "saturated", water != nullptr);
-    const scalar buoyancy = saturated && water ? water->fluid().rho0() : 0;
+    if (saturated && !water)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword saturated is yes, but the scene has no water." << nl
+            << "    Allowed: no, or clouds (water soil) in"
+            << " constant/materialPointProperties" << exit(FatalIOError);
+    }
+    const scalar buoyancy = saturated ? water->fluid().rho0() : 0;
 
     return (soil.model().rhoS() - buoyancy)/(1 + voidRatioOf(soil, dict))*g;
+}
+
+
+//- Mesh cell of this rank at a position, or -1
+static label cellAt(const mpm::backgroundGrid& grid, const point& x)
+{
+    const mpm::lattice& cells = grid.cells();
+    mpm::index3 i;
+    i = 0;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        i[d] = label
+        (
+            std::floor((x[cells.axis(d)] - cells.origin(d))/cells.spacing(d))
+        ) - grid.lower(d);
+        if (i[d] < 0 || i[d] >= grid.nNodes(d) - 1) return -1;
+    }
+    const label cell = grid.index(i);
+    return grid.ownCell(cell) ? grid.meshCell(cell) : -1;
 }
 
 
@@ -445,6 +471,7 @@ static scalar effectiveWeight
 //  through all regions in steps of the given length
 static scalar overburden
 (
+    const mpm::backgroundGrid& grid,
     const point& x,
     const vector& up,
     const scalar step,
@@ -456,9 +483,10 @@ static scalar overburden
     scalar pressure = 0;
     for (point y = x + 0.5*step*up; domain.contains(y); y += step*up)
     {
+        const label celli = cellAt(grid, y);
         forAll(weights, i)
         {
-            if (regions[i].region->contains(y, -1))
+            if (regions[i].region->contains(y, celli))
             {
                 pressure += weights[i]*step;
                 break;
@@ -496,8 +524,10 @@ static void setSoilState
     boundBox domain(soil.grid().mesh().points(), true);
 
     scalarList weights;
+    bool anyZone = false;
     for (const placedRegion& r : regions)
     {
+        anyZone = anyZone || isA<mpm::cellZoneRegion>(*r.region);
         weights.append(effectiveWeight(soil, r.dict, g, water));
     }
 
@@ -528,18 +558,23 @@ static void setSoilState
             const symmTensor direction =
                 sqr(up) + K0*(symmTensor::I - sqr(up));
 
-            // Which cells lie above is not known of a zone
-            const bool flat =
-                g == 0
-             || r.dict.found("level")
-             || isA<mpm::cellZoneRegion>(*r.region);
+            const bool flat = g == 0 || r.dict.found("level");
+            if (!flat && Pstream::parRun() && anyZone)
+            {
+                FatalIOErrorInFunction(r.dict)
+                    << "keyword stress is geostatic, and a region is a cellZone:"
+                    << " its cells that lie above may be on another rank." << nl
+                    << "    Allowed: give the level of the surface, or run"
+                    << " setMaterialPoints before decomposePar"
+                    << exit(FatalIOError);
+            }
             forAll(sigma, i)
             {
                 const point x(position(soil, r.first + i));
                 const scalar pressure =
                     flat
                   ? weights[regioni]*max(scalar(0), r.level - (up & x))
-                  : overburden(x, up, step, domain, regions, weights);
+                  : overburden(soil.grid(), x, up, step, domain, regions, weights);
                 sigma[i] = -pressure*direction;
             }
         }
@@ -632,11 +667,21 @@ static void writeDecomposition
         return label((mesh.C()[celli][axis] - bounds.min()[axis])/spacing);
     };
 
+    const label nColumns = label(bounds.span()[axis]/spacing + 0.5);
+    if (nRanks > nColumns)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword numberOfSubdomains is " << nRanks << '.' << nl
+            << "    Allowed for -decomposition: up to the number of cells in"
+            << " the longest direction of the mesh, " << nColumns
+            << exit(FatalIOError);
+    }
+
     List<scalarList> work(points.clouds().size());
     forAll(work, k)
     {
         const mpm::materialPointCloud& cloud = points.clouds()[k];
-        work[k].resize(label(bounds.span()[axis]/spacing + 0.5), Zero);
+        work[k].resize(nColumns, Zero);
         for (label p = 0; p < cloud.size(); ++p)
         {
             ++work[k][column(cloud.grid().meshCell(cloud.points().cell()[p]))];

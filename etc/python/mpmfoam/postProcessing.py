@@ -1,5 +1,6 @@
 """The .dat files of function objects."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -30,34 +31,36 @@ def readDat(casePath, functionObject, fileName):
 
 def readColumns(casePath, functionObject, fileName):
     """The same as columns by the names in the head of the last file"""
-    root = Path(casePath)/"postProcessing"/functionObject
     rows = readDat(casePath, functionObject, fileName)
-    last = max((p for p in root.glob("*") if (p/fileName).is_file()),
-               key=lambda p: float(p.name))
-    with open(last/fileName) as file:
-        head = [line for line in file if line.startswith("#")][-1]
+    head = _head(casePath, functionObject, fileName)[-1]
     return dict(zip(head.strip("# \n").split(), rows.T))
 
 
 def erosionMaps(casePath, functionObject="erosion"):
     """The columns of erosionCriteria.dat over time and place: time, x, and
     arrays (times, places): known, where there is a bed and a shear stress on
-    it; moves, grains faster than 0.01 m/s at the surface; exceeded, by
-    criterion. criticalSpeed: sqrt(tau/rho) of each, the mean over the bed,
-    with rho = 1000"""
+    it; moves, grains at the surface faster than movingSpeed [m/s]; exceeded, by
+    criterion. criticalSpeed: sqrt(tau/rho) of each, the mean over the bed"""
     b = readColumns(casePath, functionObject, "erosionCriteria.dat")
+    movingSpeed = float(re.search(
+        r"soil moves above (\S+) m/s",
+        "".join(_head(casePath, functionObject, "erosionCriteria.dat")))[1])
+    # tau = rho |u*| u*, where there is a flow
+    flows = np.abs(b["shearVelocity"]) > 0
+    rho = np.median(b["shearStress"][flows]/(
+        b["shearVelocity"]*np.abs(b["shearVelocity"]))[flows])
     time, x = np.unique(b["Time"]), np.unique(b["x"])
     shape = (len(time), len(x))
     names = [n.removesuffix("Exceeded") for n in b if n.endswith("Exceeded")]
     return {
-        "time": time, "x": x,
+        "time": time, "x": x, "movingSpeed": movingSpeed,
         "hasBed": np.isfinite(b["soilSpeed"]).reshape(shape),
         "known": np.isfinite(b["shearStress"] + b["soilSpeed"]).reshape(
             shape),
-        "moves": b["soilSpeed"].reshape(shape) > 0.01,
+        "moves": b["soilSpeed"].reshape(shape) > movingSpeed,
         "exceeded": {n: b[f"{n}Exceeded"].reshape(shape) for n in names},
         "criticalSpeed": {
-            n: float(np.sqrt(np.nanmean(b[f"{n}Stress"])/1000))
+            n: float(np.sqrt(np.nanmean(b[f"{n}Stress"])/rho))
             for n in names}}
 
 
@@ -78,6 +81,15 @@ def agreement(found, criterion):
         f"{criterion}BelowRests": (~above & ~moves).mean(),
         f"{criterion}Correlation": phi,
         "shearStressKnown": known.sum()/found["hasBed"].sum()}
+
+
+def _head(casePath, functionObject, fileName):
+    """The lines of comment of the last file"""
+    root = Path(casePath)/"postProcessing"/functionObject
+    last = max((p for p in root.glob("*") if (p/fileName).is_file()),
+               key=lambda p: float(p.name))
+    with open(last/fileName) as file:
+        return [line for line in file if line.startswith("#")]
 
 
 def _table(path):

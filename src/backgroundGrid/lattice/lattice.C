@@ -305,6 +305,17 @@ Foam::scalar Foam::mpm::lattice::midPlane() const
 }
 
 
+Foam::label Foam::mpm::lattice::along(const vector& v) const
+{
+    label result = 0;
+    for (label d = 1; d < nDim_; ++d)
+    {
+        if (mag(v[axis_[d]]) > mag(v[axis_[result]])) result = d;
+    }
+    return result;
+}
+
+
 void Foam::mpm::lattice::faceDirection
 (
     const vector& n,

@@ -5,35 +5,9 @@ License
 
 #include "bedTimeSeries.H"
 #include "dictionaryEntries.H"
-#include "gravityMeshObject.H"
+#include "waterCloud.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::label Foam::mpm::bedTimeSeries::findVertical
-(
-    const dictionary& dict,
-    bool& upward
-) const
-{
-    const vector g = meshObjects::gravity::New(mesh_.time()).value();
-    const lattice& cells = cloud().grid().cells();
-
-    label vertical = 0;
-    for (label d = 1; d < cells.nDim(); ++d)
-    {
-        if (mag(g[cells.axis(d)]) > mag(g[cells.axis(vertical)])) vertical = d;
-    }
-    if (mag(g[cells.axis(vertical)]) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "function object " << name() << ": the surface of a bed needs"
-            << " gravity to know what is up, but the value in constant/g is "
-            << g << exit(FatalIOError);
-    }
-    upward = g[cells.axis(vertical)] < 0;
-    return vertical;
-}
-
 
 Foam::label Foam::mpm::bedTimeSeries::findDirection
 (
@@ -97,6 +71,13 @@ void Foam::mpm::bedTimeSeries::readEntries(const dictionary& dict)
 {
     readBedFraction(dict);
     waterName_ = dict.lookupOrDefault<word>("water", "water");
+    if (dict.found("water") && !mesh_.foundObject<waterCloud>(waterName_))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword water is " << waterName_ << '.' << nl
+            << "    Allowed for " << type() << ": a cloud of water, one of "
+            << mesh_.sortedNames<waterCloud>() << exit(FatalIOError);
+    }
 
     bool upward = true;
     vertical_ = findVertical(dict, upward);

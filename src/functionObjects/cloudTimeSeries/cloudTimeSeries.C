@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "cloudTimeSeries.H"
+#include "gravityMeshObject.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
@@ -47,6 +48,27 @@ void Foam::mpm::cloudTimeSeries::openFile()
 void Foam::mpm::cloudTimeSeries::sumToMaster(scalarList& values)
 {
     Pstream::listCombineGather(values, plusEqOp<scalar>());
+}
+
+
+Foam::label Foam::mpm::cloudTimeSeries::findVertical
+(
+    const dictionary& dict,
+    bool& upward
+) const
+{
+    const vector g = meshObjects::gravity::New(mesh_.time()).value();
+    const lattice& cells = cloud().grid().cells();
+    const label vertical = cells.along(g);
+    if (mag(g[cells.axis(vertical)]) < VSMALL)
+    {
+        FatalIOErrorInFunction(dict)
+            << "function object " << name() << ": a " << type()
+            << " needs gravity to know what is up, but the value in constant/g"
+            << " is " << g << exit(FatalIOError);
+    }
+    upward = g[cells.axis(vertical)] < 0;
+    return vertical;
 }
 
 

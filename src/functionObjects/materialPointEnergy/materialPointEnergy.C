@@ -18,8 +18,15 @@ namespace mpm
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
-void Foam::mpm::materialPointEnergy::readEntries(const dictionary&)
+void Foam::mpm::materialPointEnergy::readEntries(const dictionary& dict)
 {
+    if (!cloud().energyBalance())
+    {
+        IOWarningInFunction(dict)
+            << "function object " << name() << " was not there when the run"
+            << " began: stressWork lacks what is of second order in the time"
+            << " step. A restart has it." << endl;
+    }
     g_ = meshObjects::gravity::New(mesh_.time()).value();
 }
 

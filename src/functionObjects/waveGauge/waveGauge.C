@@ -4,7 +4,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waveGauge.H"
-#include "gravityMeshObject.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -15,29 +14,6 @@ namespace mpm
     addToRunTimeSelectionTable(functionObject, waveGauge, dictionary);
 }
 }
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::label Foam::mpm::waveGauge::findVertical(const dictionary& dict) const
-{
-    const vector g = meshObjects::gravity::New(mesh_.time()).value();
-    const lattice& cells = cloud().grid().cells();
-
-    label vertical = 0;
-    for (label d = 1; d < cells.nDim(); ++d)
-    {
-        if (mag(g[cells.axis(d)]) > mag(g[cells.axis(vertical)])) vertical = d;
-    }
-    if (mag(g[cells.axis(vertical)]) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "function object " << name() << ": a wave gauge needs gravity"
-            << " to know what is up, but the value in constant/g is " << g
-            << exit(FatalIOError);
-    }
-    return vertical;
-}
-
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
@@ -52,9 +28,10 @@ void Foam::mpm::waveGauge::readEntries(const dictionary& dict)
     locations_ = dict.get<pointField>("points");
 
     const backgroundGrid& grid = cloud().grid();
+    bool upward = true;
     weights_.reset
     (
-        new gaugeWeights(grid, findVertical(dict), locations_)
+        new gaugeWeights(grid, findVertical(dict, upward), locations_)
     );
     volume_.reset(new gridVolume(cloud()));
     area_ = weights_->nColumns()*weights_->columnArea();

@@ -28,6 +28,13 @@ static List<scalarList> partsBefore
         for (scalar& b : before) b /= total;
         parts.append(before);
     }
+    if (parts.empty())
+    {
+        // Nothing there yet: all columns count the same
+        scalarList before(columns.size() + 1);
+        forAll(before, i) before[i] = scalar(i)/columns.size();
+        parts.append(before);
+    }
     return List<scalarList>(parts);
 }
 
@@ -58,7 +65,9 @@ static void share
     scalar least = GREAT;
     forAll(columns, b)
     {
-        for (label e = b; e <= columns.size(); ++e)
+        // No rank without a column
+        const label most = columns.size() - (n - nInside);
+        for (label e = b + nInside; e <= min(b + most, columns.size()); ++e)
         {
             scalar miss = 0;
             for (const scalarList& before : parts)

@@ -34,17 +34,24 @@ void Foam::mpm::materialPointSystem::readSettings()
       ? readPositive(control_, "maxSoilSoundSpeed", dimVelocity)
       : GREAT;
 
-    settings_.energyBalance = false;
+    settings_.energyBalance.clear();
     if (const dictionary* functions = time_.controlDict().findDict("functions"))
     {
         for (const entry& e : *functions)
         {
-            settings_.energyBalance = settings_.energyBalance
-             || (
-                    e.isDict()
-                 && e.dict().lookupOrDefault<word>("type", word::null)
-                 == "materialPointEnergy"
+            if
+            (
+                e.isDict()
+             && e.dict().lookupOrDefault<word>("type", word::null)
+             == "materialPointEnergy"
+             && e.dict().lookupOrDefault<Switch>("enabled", true)
+            )
+            {
+                settings_.energyBalance.append
+                (
+                    e.dict().lookupOrDefault<word>("cloud", word::null)
                 );
+            }
         }
     }
 
@@ -183,6 +190,12 @@ void Foam::mpm::materialPointSystem::makeClouds()
             clouds_.set(i, soil_);
         }
     }
+    // Checked in a scene with one cloud, too
+    const word pressureForm
+    (
+        readChoiceOrDefault
+            (control_, "pressureForm", "gradient", {"gradient", "divergence"})
+    );
     if (settings_.coupled)
     {
         interaction_.reset
@@ -191,11 +204,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
             (
                 properties_,
                 settings_.strictKeywords,
-                readChoiceOrDefault
-                (
-                    control_, "pressureForm", "gradient",
-                    {"gradient", "divergence"}
-                ) == "divergence",
+                pressureForm == "divergence",
                 *water_,
                 *soil_,
                 cost_
@@ -523,7 +532,9 @@ void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
     if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
     {
         const scalar maxDeltaT =
-            runTime.controlDict().lookupOrDefault<scalar>("maxDeltaT", GREAT);
+            runTime.controlDict().found("maxDeltaT")
+          ? readPositive(runTime.controlDict(), "maxDeltaT", dimTime)
+          : GREAT;
         scalar deltaT = maxCo_*limit;
         if (maxDeltaT < deltaT)
         {
@@ -803,16 +814,35 @@ void Foam::mpm::materialPointSystem::reportCosts() const
         << "    part                          seconds   % run   "
         << "ns per point and step" << nl;
 
-    // All ranks have met the same parts in the same order
-    scalar sum = 0;
+    // By name: a rank that water and soil never share has no pore pressure
+    List<stringList> names(Pstream::nProcs());
+    List<scalarList> seconds(Pstream::nProcs());
     for (size_t i = 0; i < cost_.size(); ++i)
     {
-        const scalar seconds =
-            returnReduce(cost_.seconds(i), sumOp<scalar>())/nRanks;
-        sum += seconds;
-        row(cost_.name(i), seconds);
+        names[Pstream::myProcNo()].append(string(cost_.name(i)));
+        seconds[Pstream::myProcNo()].append(cost_.seconds(i));
     }
-    row("other", total - sum);
+    Pstream::gatherList(names);
+    Pstream::gatherList(seconds);
+
+    DynamicList<string> parts;
+    DynamicList<scalar> sums;
+    forAll(names, rank)
+    {
+        forAll(names[rank], i)
+        {
+            label part = parts.find(names[rank][i]);
+            if (part < 0)
+            {
+                part = parts.size();
+                parts.append(names[rank][i]);
+                sums.append(0);
+            }
+            sums[part] += seconds[rank][i]/nRanks;
+        }
+    }
+    forAll(parts, part) row(parts[part].c_str(), sums[part]);
+    row("other", total - sum(sums));
     row("total", total);
 
     Info<< nl << "Steps: " << steps

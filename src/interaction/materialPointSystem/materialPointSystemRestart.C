@@ -21,9 +21,24 @@ const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
 namespace
 {
 
-//- Does the last line of a file hold the comment that OpenFOAM ends with
+//- Does the last line of a file hold the comment that OpenFOAM ends with.
+//  The file may be compressed (writeCompression).
 bool ended(const Foam::fileName& path)
 {
+    if (Foam::isFile(path + ".gz", false))
+    {
+        // A file that was cut off ends early
+        Foam::IFstream compressed(path);
+        std::string line;
+        bool found = false;
+        while (compressed.good() && std::getline(compressed.stdStream(), line))
+        {
+            found = line.find("// ***") != std::string::npos
+                || (found && line.empty());
+        }
+        return found;
+    }
+
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file.good()) return false;
 

@@ -203,6 +203,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     grid_(grid),
     dict_(dict),
     settings_(control),
+    energyBalance_(control.energyBalance.found(name)),
     cost_(cost),
     g_(g),
     points_(grid.nDim()),
@@ -286,7 +287,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     (void)mesh.tetBasePtIs();
 
     nodes_.resize(grid.nNodes(), grid.nDim());
-    if (settings_.energyBalance)
+    if (energyBalance_)
     {
         nodes_.oldVelocity.assign(grid.nNodes(), nodeVector{});
     }
@@ -527,6 +528,10 @@ Foam::point Foam::mpm::materialPointCloud::position(const label p) const
     {
         result[grid_.cells().axis(d)] = x(d)[p];
     }
+    if (grid_.nDim() == 2)
+    {
+        result[grid_.cells().axis(2)] = grid_.cells().midPlane();
+    }
     return result;
 }
 
@@ -704,13 +709,10 @@ Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
     for (label p = 0; p < size(); ++p)
     {
         bool finite = true;
-        point position(Zero);
         vector velocity(Zero);
         for (label d = 0; d < grid_.nDim(); ++d)
         {
-            const label axis = grid_.cells().axis(d);
-            position[axis] = x(d)[p];
-            velocity[axis] = v(d)[p];
+            velocity[grid_.cells().axis(d)] = v(d)[p];
             finite = finite && std::isfinite(v(d)[p]);
         }
         if (finite) continue;
@@ -718,7 +720,7 @@ Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
         OStringStream os;
         os  << "cloud " << name() << ", point " << label(points_.column(id_)[p])
             << ", mesh cell " << grid_.meshCell(points_.cell()[p])
-            << ", position " << position << ", velocity " << velocity;
+            << ", position " << position(p) << ", velocity " << velocity;
         return os.str();
     }
     return "cloud " + name() + ", sum of squared speeds overflows";

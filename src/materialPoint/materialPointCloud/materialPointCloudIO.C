@@ -308,13 +308,9 @@ void Foam::mpm::materialPointCloud::readPoints()
         }
         if (!inside || !grid_.ownCell(grid_.index(i)))
         {
-            point position(Zero);
-            for (label d = 0; d < grid_.nDim(); ++d)
-            {
-                position[grid_.cells().axis(d)] = x(d)[p];
-            }
             FatalErrorInFunction
-                << "cloud " << name() << ": point " << p << " at " << position
+                << "cloud " << name() << ": point " << p << " at "
+                << position(p)
                 << " in " << time().timePath()/cloud::prefix/name()
                 << " lies outside of the mesh"
                 << (Pstream::parRun() ? " of this rank." : ".") << nl

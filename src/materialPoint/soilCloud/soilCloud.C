@@ -277,10 +277,13 @@ Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
     // Undrained, the liquid in the pores stiffens the skeleton. The stiffest
     // and the densest point may be on different ranks: together they limit the
     // step, or it would depend on the decomposition
-    const scalar waveSpeedSqr = returnReduce(waveSpeedSqr_, maxOp<scalar>());
+    scalar waveSpeedSqr = returnReduce(waveSpeedSqr_, maxOp<scalar>());
     const scalar voidRatio = returnReduce(minVoidRatio_, minOp<scalar>());
-    const scalar porosity =
-        voidRatio < GREAT ? voidRatio/(1 + voidRatio) : 1;
+    const bool empty = !(voidRatio < GREAT);
+    const scalar porosity = empty ? 1 : voidRatio/(1 + voidRatio);
+
+    // Soil may come in before there is any
+    if (empty) waveSpeedSqr = model_->waveSpeedSqr(0, model_->e0());
     return std::sqrt(waveSpeedSqr + sqr(liquidSoundSpeed_)/porosity);
 }
 

@@ -75,7 +75,7 @@ class soilKernelsFor
         }
         s.solidFraction = work_.solidFraction.data();
         s.speed = work_.speed.data();
-        s.power = c.settings_.energyBalance ? work_.power.data() : nullptr;
+        s.power = c.energyBalance_ ? work_.power.data() : nullptr;
         return s;
     }
 
@@ -212,7 +212,7 @@ public:
                 }
             );
         }
-        if (c.settings_.energyBalance)
+        if (c.energyBalance_)
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }

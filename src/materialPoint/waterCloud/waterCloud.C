@@ -123,14 +123,7 @@ void Foam::mpm::waterCloud::addOutletLoads()
     const label nDim = grid_.nDim();
     const label T = grid_.reachWidth();
 
-    label vertical = 0;
-    for (label d = 1; d < nDim; ++d)
-    {
-        if (mag(g_[cells.axis(d)]) > mag(g_[cells.axis(vertical)]))
-        {
-            vertical = d;
-        }
-    }
+    const label vertical = cells.along(g_);
     const scalar g = g_[cells.axis(vertical)];
     auto pressure = [&](const scalar level, const scalar z) -> scalar
     {
@@ -468,8 +461,8 @@ Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
             << " adjustTimeStep is no)." << exit(FatalError);
     }
 
-    // Water may come in before there is any
-    return fluid_.soundSpeed(open_.valid() ? min(minJ_, scalar(1)) : minJ_);
+    // Water may come in before there is any, and the last may have left
+    return fluid_.soundSpeed(min(minJ_, scalar(1)));
 }
 
 

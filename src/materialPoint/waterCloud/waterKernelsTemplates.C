@@ -73,11 +73,17 @@ class waterKernelsFor
         (
             [&](const label i) { S[i] = volume(i)*inversePoreVolume[i]; }
         );
+        // Nodes on the rim of the box, which points of this rank do not reach,
+        // have no neighbours beyond it
+        const label rim = neighbours_.back();
+        const label beyond = label(S.size()) - rim;
+
         this->forActiveNodes
         (
             [&](const label i)
             {
-                bool inside = S[i] > waterCloud::insideSaturation;
+                bool inside = S[i] > waterCloud::insideSaturation
+                 && i >= rim && i < beyond;
                 if (inside)
                 {
                     for (const label n : neighbours_)
@@ -226,7 +232,7 @@ public:
                 if constexpr (smoothing) v[dim] = meanVolumeRatio(i);
             }
         );
-        if (c.settings_.energyBalance)
+        if (c.energyBalance_)
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }

@@ -124,7 +124,7 @@ void Foam::mpm::inflowOutflow::markCells()
 }
 
 
-void Foam::mpm::inflowOutflow::makeLevelZones()
+void Foam::mpm::inflowOutflow::makeLevelZones(const vector& g)
 {
     levelZones_.setSize(outlets_.size());
     if (!anyWaterLevel()) return;
@@ -145,6 +145,14 @@ void Foam::mpm::inflowOutflow::makeLevelZones()
                 << "keyword waterLevel of outlet " << outlets_[i].name()
                 << ": its patch looks in different directions." << nl
                 << "    Allowed: a plane patch" << exit(FatalIOError);
+        }
+        if (levelZones_[i].direction() == grid_.cells().along(g))
+        {
+            FatalIOErrorInFunction(outlets_[i].dict())
+                << "keyword waterLevel of outlet " << outlets_[i].name()
+                << ": its patch looks up or down, where water has no level."
+                << nl << "    Allowed: a patch that looks to the side"
+                << exit(FatalIOError);
         }
         for (const label celli : levelZones_[i].meshCells())
         {
@@ -179,14 +187,13 @@ Foam::mpm::inflowOutflow::inflowOutflow
     makeInlets(dict, U, g, soil);
     makeOutlets(dict, U);
     markCells();
-    makeLevelZones();
-
     if (anyWaterLevel() && !(mag(g) > 0))
     {
         FatalIOErrorInFunction(dict)
             << "keyword waterLevel needs gravity." << nl
             << "    Allowed: constant/g other than zero" << exit(FatalIOError);
     }
+    makeLevelZones(g);
 }
 
 

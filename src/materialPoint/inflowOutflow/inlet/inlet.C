@@ -122,22 +122,11 @@ void Foam::mpm::inlet::findExtent
     }
     reduce(direction, maxOp<label>());
 
-    // Nearest to gravity; without gravity the last one along the patch
-    vertical_ = -1;
-    for (label d = 0; d < grid.nDim(); ++d)
+    // Without gravity the last one along the patch
+    vertical_ = cells.along(g);
+    for (label d = 0; !(mag(g) > 0) && d < grid.nDim(); ++d)
     {
-        if (mag(g) > 0)
-        {
-            if
-            (
-                vertical_ < 0
-             || mag(g[cells.axis(d)]) > mag(g[cells.axis(vertical_)])
-            )
-            {
-                vertical_ = d;
-            }
-        }
-        else if (d != direction) vertical_ = d;
+        if (d != direction) vertical_ = d;
     }
     up_ = g[cells.axis(vertical_)] > 0 ? -1 : 1;
     gravity_ = mag(g[cells.axis(vertical_)]);

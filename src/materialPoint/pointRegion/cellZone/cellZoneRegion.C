@@ -26,7 +26,8 @@ Foam::mpm::cellZoneRegion::cellZoneRegion
 )
 :
     pointRegion(mesh, dict),
-    inZone_(mesh.nCells())
+    inZone_(mesh.nCells()),
+    bounds_(boundBox::invertedBox)
 {
     checkKeywords(dict, keywords({"zone"}), strictKeywords);
 
@@ -40,6 +41,11 @@ Foam::mpm::cellZoneRegion::cellZoneRegion
             << exit(FatalIOError);
     }
     inZone_.set(mesh.cellZones()[zonei]);
+    for (const label celli : inZone_)
+    {
+        bounds_.add(mesh.points(), mesh.cellPoints()[celli]);
+    }
+    bounds_.reduce();
 }
 
 
@@ -51,19 +57,13 @@ bool Foam::mpm::cellZoneRegion::contains
     const label celli
 ) const
 {
-    return inZone_.test(celli);
+    return celli >= 0 && inZone_.test(celli);
 }
 
 
 Foam::boundBox Foam::mpm::cellZoneRegion::bounds() const
 {
-    boundBox box(boundBox::invertedBox);
-    for (const label celli : inZone_)
-    {
-        box.add(mesh_.points(), mesh_.cellPoints()[celli]);
-    }
-    box.reduce();
-    return box;
+    return bounds_;
 }
 
 // ************************************************************************* //
