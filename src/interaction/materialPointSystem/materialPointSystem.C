@@ -532,9 +532,12 @@ void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
     if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
     {
         const scalar maxDeltaT =
-            runTime.controlDict().found("maxDeltaT")
-          ? readPositive(runTime.controlDict(), "maxDeltaT", dimTime)
-          : GREAT;
+            runTime.controlDict().lookupOrDefault<scalar>("maxDeltaT", GREAT);
+        if (!(maxDeltaT > 0))
+        {
+            // Only for its message: costly each step
+            readPositive(runTime.controlDict(), "maxDeltaT", dimTime);
+        }
         scalar deltaT = maxCo_*limit;
         if (maxDeltaT < deltaT)
         {
