@@ -344,21 +344,6 @@ static std::vector<placedRegion> place
 }
 
 
-//- Position of a point of a cloud; components x, y, z
-static point position
-(
-    const mpm::materialPointCloud& cloud,
-    const label p
-)
-{
-    const mpm::lattice& cells = cloud.grid().cells();
-    point x(Zero);
-    for (label d = 0; d < cells.nDim(); ++d) x[cells.axis(d)] = cloud.x(d)[p];
-    if (cells.nDim() == 2) x[cells.axis(2)] = cells.midPlane();
-    return x;
-}
-
-
 //- Void ratio that a region of soil starts with
 static scalar voidRatioOf(const mpm::soilCloud& soil, const dictionary& dict)
 {
@@ -400,7 +385,7 @@ static void setWaterState
         scalarField V(r.last - r.first, volume);
         forAll(p, i)
         {
-            const point x(position(water, r.first + i));
+            const point x(water.position(r.first + i));
             if (hydrostatic)
             {
                 p[i] = water.fluid().hydrostaticPressure
@@ -570,7 +555,7 @@ static void setSoilState
             }
             forAll(sigma, i)
             {
-                const point x(position(soil, r.first + i));
+                const point x(soil.position(r.first + i));
                 const scalar pressure =
                     flat
                   ? weights[regioni]*max(scalar(0), r.level - (up & x))
