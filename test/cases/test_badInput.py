@@ -379,6 +379,10 @@ CASES = [
         "file": SOLUTION, "keyword": "pressureForm", "value": r"\bgradiant\b",
         "allowed": words("gradient", "divergence")},
         setup=mpm(pressureForm="gradiant")),
+    Bad("overlapCorrectionAlone", {
+        "file": SOLUTION, "keyword": "overlapCorrection", "value": r"\byes\b",
+        "allowed": "volumeCorrection yes"},
+        setup=mpm(overlapCorrection=True, volumeCorrection=False)),
 
     # Values
     Bad("maxDeltaT", {
@@ -600,6 +604,7 @@ def testDefaultsWork(tmp_path, figures):
     full.fluid.update(gamma=7, soundSpeed="auto")
     full.mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5,
                 "smoothing": True, "volumeCorrection": True,
+                "overlapCorrection": False,
                 "sortInterval": 10, "logInterval": 10,
                 "strictKeywords": True}
     full.placement = {"placement": "regular"}

@@ -49,6 +49,7 @@ waterScene::waterScene
     settings.sortInterval = 1;
     settings.smoothing = true;
     settings.volumeCorrection = true;
+    settings.overlapCorrection = false;
     settings.strictKeywords = true;
 
     cloud_.reset

@@ -20,12 +20,11 @@ for place in ["etc/python", "test", "test/cases"]:
 
 import caseBuilder  # noqa: E402
 from conftest import Figures  # noqa: E402
-from hardCases import GUARDS, HARD, KNOWN, ElementTest  # noqa: E402
+from hardCases import GUARDS, HARD, ElementTest  # noqa: E402
 from mpmfoam import metrics, reference, study, style  # noqa: E402
 
 caseBuilder.TIMEOUT = 7200
 FIGURES = "figures.json"
-CASES = {**HARD, **KNOWN}
 
 
 class Bounds(Figures):
@@ -114,7 +113,7 @@ def commandsOf(setup):
 
 
 def hardRun(name):
-    hard = CASES[name]
+    hard = HARD[name]
     setup = hard.setup(**hard.large)
     return HardRun(name, [], commandsOf(setup), about={"text": hard.about},
                    setup=setup, solve=hard.start, judge=hard.bounds)
@@ -148,7 +147,7 @@ def limits(rows):
 
 
 def draw(done, results):
-    cases = [name for name in CASES if name in done]
+    cases = [name for name in HARD if name in done]
     guards = [name for name in GUARDS
               if all(f"guard_{name}_{s}" in done for s in ("on", "off"))]
     fig, (left, right) = style.figure(1, 2, width=10, height=5.2)
@@ -231,7 +230,7 @@ def evaluate(done, results):
 
 
 RUNS = ([guardRun(name, on) for name in GUARDS for on in (True, False)]
-        + [hardRun(name) for name in CASES])
+        + [hardRun(name) for name in HARD])
 
 
 if __name__ == "__main__":

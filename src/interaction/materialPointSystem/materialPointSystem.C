@@ -24,6 +24,15 @@ void Foam::mpm::materialPointSystem::readSettings()
     settings_.smoothing = readSwitchOrDefault(control_, "smoothing", true);
     settings_.volumeCorrection =
         readSwitchOrDefault(control_, "volumeCorrection", true);
+    settings_.overlapCorrection =
+        readSwitchOrDefault(control_, "overlapCorrection", false);
+    if (settings_.overlapCorrection && !settings_.volumeCorrection)
+    {
+        FatalIOErrorInFunction(control_)
+            << "keyword overlapCorrection is yes, but volumeCorrection is no."
+            << nl << "    Allowed: no, or volumeCorrection yes"
+            << exit(FatalIOError);
+    }
     settings_.sortInterval = label
     (
         readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
@@ -60,8 +69,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         control_,
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
-            "volumeCorrection", "maxSoilSoundSpeed", "pressureForm",
-            "logInterval", "strictKeywords"
+            "volumeCorrection", "overlapCorrection", "maxSoilSoundSpeed",
+            "pressureForm", "logInterval", "strictKeywords"
         },
         settings_.strictKeywords
     );

@@ -555,6 +555,15 @@ void Foam::mpm::waterCloud::effects(List<FixedList<string, 3>>& table) const
         "  volume correction", settings_.volumeCorrection,
         "fvSolution/MPM/volumeCorrection"
     );
+    if (settings_.coupled)
+    {
+        add
+        (
+            "  overlap correction",
+            settings_.volumeCorrection && settings_.overlapCorrection,
+            "fvSolution/MPM/overlapCorrection"
+        );
+    }
     add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
     openEffects(table);
 }

@@ -47,6 +47,8 @@ class waterKernelsFor
             {},
             correct ? waterCloud::correctionRate*courant : 0,
             correct ? waterCloud::bedCorrectionRate*perSpeed : 0,
+            correct && c.settings_.overlapCorrection
+          ? waterCloud::overlapCorrectionRate*courant : 0,
             1 - std::exp(-waterCloud::smoothingRate*courant),
             c.minPressure_
         };
