@@ -441,10 +441,7 @@ static label cellAt(const mpm::backgroundGrid& grid, const point& x)
     i = 0;
     for (label d = 0; d < cells.nDim(); ++d)
     {
-        i[d] = label
-        (
-            std::floor((x[cells.axis(d)] - cells.origin(d))/cells.spacing(d))
-        ) - grid.lower(d);
+        i[d] = cells.cellCoordinate(d, x[cells.axis(d)]) - grid.lower(d);
         if (i[d] < 0 || i[d] >= grid.nNodes(d) - 1) return -1;
     }
     const label cell = grid.index(i);

@@ -12,6 +12,7 @@ License
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "waterSoilInteraction.H"
+#include <algorithm>
 #include <fstream>
 
 const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
@@ -87,47 +88,47 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
 )
 {
     const fileName casePath(args.path());
-    const instantList times(TimePaths::findTimes(casePath));
 
-    // Whole on every rank, or not at all
-    wordHashSet whole, found;
-    for (const instant& t : times)
+    // A time directory that only some ranks have is incomplete, too
+    wordHashSet found;
+    for (const instant& t : TimePaths::findTimes(casePath))
     {
-        if (t.name() == "constant") continue;
-        found.insert(t.name());
-        if (complete(casePath/t.name(), stateName))
-        {
-            whole.insert(t.name());
-        }
+        if (t.name() != "constant") found.insert(t.name());
     }
     if (Pstream::parRun())
     {
-        List<wordList> allWhole(Pstream::nProcs()), allFound(Pstream::nProcs());
-        allWhole[Pstream::myProcNo()] = whole.sortedToc();
-        allFound[Pstream::myProcNo()] = found.sortedToc();
-        Pstream::gatherList(allWhole);
-        Pstream::scatterList(allWhole);
-        Pstream::gatherList(allFound);
-        Pstream::scatterList(allFound);
-        for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+        List<wordList> all(Pstream::nProcs());
+        all[Pstream::myProcNo()] = found.sortedToc();
+        Pstream::gatherList(all);
+        Pstream::scatterList(all);
+        for (const wordList& names : all) found.insert(names);
+    }
+    wordList names(found.toc());
+    std::sort
+    (
+        names.begin(), names.end(),
+        [](const word& a, const word& b)
         {
-            whole &= wordHashSet(allWhole[rank]);
-            found |= wordHashSet(allFound[rank]);
+            return readScalar(a) > readScalar(b);
         }
-    }
+    );
 
-    // Only what is later than the last whole time can have been cut off
-    scalar last = -GREAT;
-    for (const word& name : whole)
+    // Only what is later than the last time that is whole on every rank can
+    // have been cut off; what is earlier is not read
+    label nIncomplete = 0;
+    for (const word& name : names)
     {
-        last = max(last, readScalar(name));
+        if (returnReduce(complete(casePath/name, stateName), andOp<bool>()))
+        {
+            break;
+        }
+        ++nIncomplete;
     }
-    if (whole.empty()) return;
+    if (nIncomplete == names.size()) return;
 
-    for (const word& name : found.sortedToc())
+    for (label i = nIncomplete - 1; i >= 0; --i)
     {
-        if (readScalar(name) <= last) continue;
-
+        const word& name = names[i];
         Info<< "--> Time directory " << name << " is incomplete (its file"
             << " uniform/" << stateName << " or one of its clouds is missing or"
             << " cut off): it is"

@@ -61,11 +61,7 @@ Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
     i = 0;
     for (label d = 0; d < grid_.nDim(); ++d)
     {
-        // The same arithmetic as in the kernels
-        const scalar inverse = 1/cells.spacing(d);
-        i[d] =
-            label(std::floor((x(d)[point] - cells.origin(d))*inverse))
-          - grid_.lower(d);
+        i[d] = cells.cellCoordinate(d, x(d)[point]) - grid_.lower(d);
     }
     return i;
 }
