@@ -108,6 +108,11 @@ def runs():
            refined("h0.005_p16", 2, points=4), refined("h0.003333", 3)]
     all += [refined(f"h0.01_{name}", 1, end=2, changes=changes)
             for name, changes in SENSITIVITY.items()]
+    overlap = {"system/fvSolution": {"MPM/overlapCorrection": "yes"}}
+    all += [refined("h0.01_overlapCorrection", 1, changes=overlap,
+                    optional=True),
+            refined("h0.005_overlapCorrection", 2, changes=overlap,
+                    optional=True)]
     return all
 
 
