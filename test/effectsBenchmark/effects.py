@@ -246,9 +246,7 @@ def effectRows():
         ("drag", mixture(), mixture(drag="none")),
         ("Gidaspow for DarcyForchheimer", mixture(drag="Gidaspow"),
          mixture()),
-        ("suspended for in contact", mixture(ns=0.3), mixture()),
-        ("overlap correction",
-         changed(mixture(), mpm={"overlapCorrection": True}), mixture())]
+        ("suspended for in contact", mixture(ns=0.3), mixture())]
     return rows
 
 
@@ -275,9 +273,6 @@ def idleRows():
          column()),
         ("suspended regime: bed at rest", bed(wet=True),
          bed(wet=True, nsC=1e-3)),
-        ("overlap correction: bed at rest",
-         changed(bed(wet=True), mpm={"overlapCorrection": True}),
-         bed(wet=True)),
         ("bed load: bed at rest", bed(),
          bed(bedLoadI=1e9, bedLoadSpeed=1e9)),
         ("cap of the stiffness: not reached",
