@@ -45,6 +45,10 @@ void Foam::mpm::materialPointCloud::activate(const bool sort)
 {
     // Nodes that become inactive must be left zero
     zeroNodes();
+    for (const auto& range : order_.nodeRanges())
+    {
+        nodes_.leave(range.first, range.second);
+    }
     order_.activate(points_);
     boundary_.activate(order_.nodes());
     if (sort) order_.sort(points_);

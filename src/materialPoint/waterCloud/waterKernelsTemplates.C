@@ -45,6 +45,8 @@ class waterKernelsFor
             {},
             deltaT,
             {},
+            c.bulkViscosity(courant)*c.grid_.cells().minSpacing(),
+            1 - std::exp(-courant),
             correct ? waterCloud::correctionRate*courant : 0,
             correct ? waterCloud::bedCorrectionRate*perSpeed : 0,
             correct && c.settings_.overlapCorrection
@@ -60,35 +62,71 @@ class waterKernelsFor
         return m;
     }
 
+    //- Call op(node, offsets to its neighbours) for the active nodes. Nodes on
+    //  the rim of the box, which points of this rank do not reach, have none.
+    template<class Op>
+    void forNeighbourhoods(const Op& op) const
+    {
+        static const std::vector<label> none;
+        const label rim = neighbours_.back();
+        const label beyond = label(cloud_.nodes_.saturation.size()) - rim;
+        this->forActiveNodes
+        (
+            [&](const label i)
+            {
+                op(i, i >= rim && i < beyond ? neighbours_ : none);
+            }
+        );
+    }
+
+    //- Volume of the water over that of the pores, and the share of the
+    //  pressure that follows from the most of it nearby: see waterMaterial
+    void saturations()
+    {
+        waterCloud& c = cloud_;
+        const std::vector<scalar>& inversePoreVolume =
+            c.coupling_
+          ? c.coupling_->inversePoreVolume : c.boundary_.inverseVolume();
+        std::vector<scalar>& S = c.nodes_.saturation;
+        std::vector<scalar>& filling = c.nodes_.filling;
+
+        this->forActiveNodes
+        (
+            [&](const label i) { S[i] = volume(i)*inversePoreVolume[i]; }
+        );
+        forNeighbourhoods
+        (
+            [&](const label i, const std::vector<label>& neighbours)
+            {
+                scalar most = S[i];
+                for (const label n : neighbours)
+                {
+                    if (most >= waterCloud::fullSaturation) break;
+                    most = max(most, S[i + n]);
+                }
+                filling[i] = waterCloud::filling(most);
+            }
+        );
+    }
+
     //- How much the volume at each node is off, into the scalar slot of the
     //  velocity: inside the water any error, elsewhere only an excess
     void volumeErrors()
     {
         waterCloud& c = cloud_;
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
-        const std::vector<scalar>& inversePoreVolume =
-            c.coupling_ ? c.coupling_->inversePoreVolume : inverseVolume;
-        std::vector<scalar>& S = c.nodes_.saturation;
+        const std::vector<scalar>& S = c.nodes_.saturation;
         nodeField<nodeVector>& velocity = c.nodes_.velocity;
 
-        this->forActiveNodes
+        forNeighbourhoods
         (
-            [&](const label i) { S[i] = volume(i)*inversePoreVolume[i]; }
-        );
-        // Nodes on the rim of the box, which points of this rank do not reach,
-        // have no neighbours beyond it
-        const label rim = neighbours_.back();
-        const label beyond = label(S.size()) - rim;
-
-        this->forActiveNodes
-        (
-            [&](const label i)
+            [&](const label i, const std::vector<label>& neighbours)
             {
-                bool inside = S[i] > waterCloud::insideSaturation
-                 && i >= rim && i < beyond;
+                bool inside =
+                    S[i] > waterCloud::insideSaturation && neighbours.size();
                 if (inside)
                 {
-                    for (const label n : neighbours_)
+                    for (const label n : neighbours)
                     {
                         // Nodes behind walls have no control volume
                         inside = inside
@@ -180,11 +218,9 @@ public:
     {
         waterCloud& c = cloud_;
 
-        if (c.settings_.volumeCorrection)
-        {
-            c.cost_.start("water: volume correction (nodes)");
-            volumeErrors();
-        }
+        c.cost_.start("water: volume (nodes)");
+        saturations();
+        if (c.settings_.volumeCorrection) volumeErrors();
 
         c.cost_.start("water: stress and forces");
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
