@@ -17,6 +17,9 @@ Description
     start with a \c uniform effective stress. Water points inside a soil
     region fill its pores.
 
+    Regions are half open, to a millionth of a cell: a point on the face that
+    two of them share belongs to the upper one.
+
     Runs in serial (before decomposePar) or in parallel (after it, without
     points), with the same points in both.
 
@@ -123,6 +126,28 @@ static scalar noise(const uint64_t seed, const uint64_t id, const label d)
 }
 
 
+//- Is a position in a region. Regions are half open: what lies on the face of
+//  two belongs to the upper one. A millionth of a cell decides, not the last
+//  bit of the mesh; in each direction another part of it, so that hardly an
+//  edge lies along it.
+static bool holds
+(
+    const mpm::lattice& cells,
+    const mpm::pointRegion& region,
+    const point& x,
+    const label celli
+)
+{
+    const scalar part[3] = {1e-6, 0.77e-6, 0.59e-6};
+    point y(x);
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        y[cells.axis(d)] += part[d]*cells.spacing(d);
+    }
+    return region.contains(y, celli);
+}
+
+
 //- Points of one region
 struct regionPoints
 {
@@ -130,6 +155,93 @@ struct regionPoints
     DynamicList<label> cell;
     DynamicList<scalar> id;
 };
+
+
+//- Mesh cell of this rank at a position, or -1
+static label cellAt(const mpm::backgroundGrid& grid, const point& x)
+{
+    const mpm::lattice& cells = grid.cells();
+    mpm::index3 i;
+    i = 0;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        i[d] = cells.cellCoordinate(d, x[cells.axis(d)]) - grid.lower(d);
+        if (i[d] < 0 || i[d] >= grid.nNodes(d) - 1) return -1;
+    }
+    const label cell = grid.index(i);
+    return grid.ownCell(cell) ? grid.meshCell(cell) : -1;
+}
+
+
+//- Part of the volume of a region that no cell of the mesh holds, by samples.
+//  Collective.
+static scalar shareOutside
+(
+    const mpm::backgroundGrid& grid,
+    const mpm::pointRegion& region
+)
+{
+    // Cells are all it has
+    if (isA<mpm::cellZoneRegion>(region)) return 0;
+
+    const mpm::lattice& cells = grid.cells();
+    const label nDim = cells.nDim();
+    const boundBox domain(grid.mesh().points(), true);
+    const boundBox bounds(region.bounds());
+
+    // Each part of the region below, within and above the mesh has its own
+    // samples, so that none is too thin. Without end, it ends with the mesh.
+    const label n = nDim == 2 ? 100 : 25;
+    FixedList<DynamicList<scalar>, 3> position, width;
+    for (label d = 0; d < 3; ++d)
+    {
+        if (d == nDim)
+        {
+            position[d].append(cells.midPlane());
+            width[d].append(1);
+            continue;
+        }
+        const label c = cells.axis(d);
+        const scalar from = domain.min()[c], to = domain.max()[c];
+        const bool endless =
+            bounds.max()[c] - bounds.min()[c] > 0.1*GREAT;
+        const scalar lower = endless ? from : bounds.min()[c];
+        const scalar upper = endless ? to : bounds.max()[c];
+        const scalar cut[4] =
+        {
+            lower, min(max(from, lower), upper), max(min(to, upper), lower),
+            upper
+        };
+        for (label part = 0; part < 3; ++part)
+        {
+            const scalar length = cut[part + 1] - cut[part];
+            if (length < 1e-6*cells.spacing(d)) continue;
+            for (label i = 0; i < n; ++i)
+            {
+                position[d].append(cut[part] + (i + 0.5)/n*length);
+                width[d].append(length/n);
+            }
+        }
+    }
+
+    scalar all = 0, inside = 0;
+    forAll(position[2], k)
+    forAll(position[1], j)
+    forAll(position[0], i)
+    {
+        point x(Zero);
+        x[cells.axis(0)] = position[0][i];
+        x[cells.axis(1)] = position[1][j];
+        x[cells.axis(2)] = position[2][k];
+        if (!region.contains(x, -1)) continue;
+
+        const scalar volume = width[0][i]*width[1][j]*width[2][k];
+        all += volume;
+        if (cellAt(grid, x) >= 0) inside += volume;
+    }
+    reduce(inside, sumOp<scalar>());
+    return all > 0 ? max(scalar(0), 1 - inside/all) : 0;
+}
 
 
 //- Fill a region; cells that another region filled before are passed over
@@ -191,7 +303,7 @@ static regionPoints fill
                 x[cells.axis(d)] = corner[cells.axis(d)]
                   + f/n*size[cells.axis(d)];
             }
-            if (!region.contains(x, celli)) continue;
+            if (!holds(cells, region, x, celli)) continue;
 
             if (!taken.insert(celli*perCell + k))
             {
@@ -290,8 +402,16 @@ static std::vector<placedRegion> place
                 << "    It spans " << region->bounds() << ", the mesh "
                 << mesh.bounds() << exit(FatalIOError);
         }
+        const scalar outside = 100*shareOutside(cloud.grid(), *region);
         Info<< "Cloud " << cloud.name() << ", region " << e.keyword() << ": "
-            << n << " points" << endl;
+            << n << " points";
+        if (outside > 1e-6)
+        {
+            Info<< "; " << (outside < 1 ? "less than " : "about ")
+                << max(label(1), label(std::lround(outside)))
+                << " % of its volume lies outside of the mesh";
+        }
+        Info<< endl;
 
         // The level is the top of the region, unless given
         scalar top = -GREAT;
@@ -397,7 +517,7 @@ static void setWaterState
                 water.grid().meshCell(water.points().cell()[r.first + i]);
             for (const placedRegion& s : soilRegions)
             {
-                if (s.region->contains(x, celli))
+                if (holds(water.grid().cells(), *s.region, x, celli))
                 {
                     const scalar e = voidRatioOf(*soil, s.dict);
                     V[i] *= e/(1 + e);
@@ -433,22 +553,6 @@ static scalar effectiveWeight
 }
 
 
-//- Mesh cell of this rank at a position, or -1
-static label cellAt(const mpm::backgroundGrid& grid, const point& x)
-{
-    const mpm::lattice& cells = grid.cells();
-    mpm::index3 i;
-    i = 0;
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        i[d] = cells.cellCoordinate(d, x[cells.axis(d)]) - grid.lower(d);
-        if (i[d] < 0 || i[d] >= grid.nNodes(d) - 1) return -1;
-    }
-    const label cell = grid.index(i);
-    return grid.ownCell(cell) ? grid.meshCell(cell) : -1;
-}
-
-
 //- Weight of the soil above a position per area [Pa], met on the way up
 //  through all regions in steps of the given length
 static scalar overburden
@@ -468,7 +572,7 @@ static scalar overburden
         const label celli = cellAt(grid, y);
         forAll(weights, i)
         {
-            if (regions[i].region->contains(y, celli))
+            if (holds(grid.cells(), *regions[i].region, y, celli))
             {
                 pressure += weights[i]*step;
                 break;
