@@ -153,6 +153,60 @@ void Foam::mpm::waterSoilInteraction::findReach()
 }
 
 
+Foam::scalar Foam::mpm::waterSoilInteraction::liquidVolume
+(
+    const label node
+) const
+{
+    const scalar control = 1/water_.boundary().inverseVolume()[node];
+    return min(waterVolume(node), max(control - solidVolume(node), scalar(0)));
+}
+
+
+void Foam::mpm::waterSoilInteraction::findInside()
+{
+    const label dim = grid_.nDim();
+    const std::vector<scalar>& inverseVolume =
+        water_.boundary().inverseVolume();
+    // Of a node whose cells are all there
+    const scalar whole = (1 + 1e-6)/grid_.cells().cellVolume();
+
+    for (const label i : inside_) pressureInside_[i] = nodeVector{};
+    inside_.clear();
+    fields_.forNodes
+    (
+        [&](const label i)
+        {
+            const scalar perVolume = inverseVolume[i];
+            if
+            (
+                perVolume > 0 && perVolume < whole
+             && soil_.nodes().momentum[i][dim] > 0
+             && water_.nodes().momentum[i][dim] > 0
+            )
+            {
+                nodeVector& here = pressureInside_[i];
+                here = fields_.pressureForce[i];
+                here[3] = solidVolume(i) + liquidVolume(i);
+                inside_.push_back(i);
+            }
+        }
+    );
+}
+
+
+Foam::mpm::nodeVector
+Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
+{
+    nodeVector sum{};
+    for (const auto& part : mean_)
+    {
+        sum += part.second*pressureInside_[node + part.first];
+    }
+    return sum*(1/sum[3]);
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
@@ -195,6 +249,19 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
 
     water_.couple(fields_);
     soil_.couple(fields_);
+
+    pressureInside_.assign(fields_.saturation.size(), nodeVector{});
+    const label depth = (grid_.nDim() == 3 ? 1 : 0);
+    for (label k = -depth; k <= depth; ++k)
+    for (label j = -1; j <= 1; ++j)
+    for (label i = -1; i <= 1; ++i)
+    {
+        mean_.emplace_back
+        (
+            i + j*grid_.stride(1) + k*grid_.stride(2),
+            1.0/(1 << (mag(i) + mag(j) + mag(k)))
+        );
+    }
 
     const label W = grid_.tileWidth();
     for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
@@ -330,8 +397,6 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     cost_.start("coupling");
 
     const label dim = grid_.nDim();
-    const std::vector<scalar>& inverseVolume =
-        water_.boundary().inverseVolume();
     nodalFields& soil = soil_.nodes();
     nodalFields& water = water_.nodes();
 
@@ -354,7 +419,12 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
         return;
     }
 
-    // Water takes all of it, and gives soil its share
+    // Water takes all of it, and gives soil its share. Inside the bed grains
+    // feel the mean of their neighbourhood: points of sheared water integrate
+    // the pressure with an error that changes from node to node, and is several
+    // times what drag and weight of a grain are. At walls a folded force is no
+    // gradient, and in water alone the gradient is another: neither takes part.
+    findInside();
     fields_.forNodes
     (
         [&](const label i)
@@ -364,11 +434,17 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
             if (!(soil.momentum[i][dim] > 0)) return;
 
             const scalar solid = solidVolume(i);
-            const scalar liquid =
-                wet ? min(waterVolume(i), max(1/inverseVolume[i] - solid, 0.0))
-              : 0;
-            const nodeVector share =
-                solid/(liquid + solid)*fields_.pressureForce[i];
+            nodeVector share{};
+            if (pressureInside_[i][3] > 0)
+            {
+                share = solid*meanPressureGradient(i);
+            }
+            else
+            {
+                const scalar liquid = wet ? liquidVolume(i) : 0;
+                share = solid/(liquid + solid)*fields_.pressureForce[i];
+            }
+            for (label d = dim; d < 4; ++d) share[d] = 0;
             soil.force[i] += share;
             if (wet) water.force[i] -= share;
         }
