@@ -1,9 +1,11 @@
 """Every combination of transfer scheme, shape function and dimension runs."""
 
+import re
+
 import numpy as np
 import pytest
 
-from caseBuilder import damBreak
+from caseBuilder import Setup, box, damBreak
 from checks import healthy
 
 TRANSFERS = ["APIC", "FLIP", "PIC", "XPIC"]
@@ -91,3 +93,43 @@ def testViscosity(tmp_path, figures, viscosity):
         figures.atMost("time step over h^2/(2 dim nu)",
                        case.log.deltaTMax/limit, 1 + 1e-6)
     healthy(figures, case)
+
+
+def movePoints(case, shift):
+    """All points by a vector, in the binary file of their positions"""
+    path = case.path/"0"/"lagrangian"/"water"/"x"
+    data = path.read_bytes()
+    found = re.compile(rb"\n(\d+)\s*\n?\(").search(
+        data, data.index(b"// * *"))
+    n, first = int(found[1]), found.end()
+    x = np.frombuffer(data, "<f8", 3*n, first).reshape(n, 3) + shift
+    path.write_bytes(data[:first] + x.tobytes() + data[first + 24*n:])
+
+
+@pytest.mark.parametrize("transfer, shape", [
+    (transfer, shape) for transfer in TRANSFERS for shape in SHAPES[:2]
+    if (transfer, shape) != ("APIC", "linear")])
+@pytest.mark.parametrize("shift", [(0.25, 0.25), (0.25, 0), (0.25 + 1e-9, 0)],
+                         ids=["corners", "faces", "near faces"])
+def testUniformMotion(tmp_path, figures, shift, transfer, shape):
+    """A block that moves as one, with points exactly on faces and corners of
+    cells: a node that no point gives mass has a velocity all the same"""
+    velocity = (0.7, 0.3, 0)
+    case = Setup(
+        cells=(12, 10), h=1, points=2, g=(0, 0, 0), energy=False,
+        regions={"block": box((2, 2), (6, 6), velocity=velocity)},
+        fluid={"soundSpeed": 4}, water={"transfer": transfer},
+        mpm={"shapeFunction": shape},
+        control={"adjustTimeStep": False, "deltaT": 0.1}).cyclic(
+            "x", "y").steps(60).write(tmp_path/"case").prepare()
+    movePoints(case, np.array([*shift, 0]))
+    start = case.points("0")
+    figures.equal("points on faces", int(np.sum(
+        np.abs(start.x[:, 0] - np.round(start.x[:, 0])) < 1e-8)), 32)
+    case.solve()
+    end = case.points()
+    way = (end.x - start.x)[:, :2] - 6*np.array(velocity[:2])
+    way -= np.round(way/[12, 10])*[12, 10]
+    figures.atMost("place: largest error", np.abs(way).max(), 1e-12)
+    figures.atMost("velocity: largest error",
+                   np.abs(end.U - velocity).max(), 1e-12)

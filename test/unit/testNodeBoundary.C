@@ -87,6 +87,21 @@ struct scene
         return sum;
     }
 
+    //- Ghost node at (i, j) of the lattice for points of a cell; -1 if the
+    //  node does not fold
+    label ghost(const int cellI, const int cellJ, const int i, const int j) const
+    {
+        const label T = grid->reachWidth();
+        const label t =
+            i - cellI - grid->reachStart()
+          + T*(j - cellJ - grid->reachStart());
+        const label s = boundary->stencil(at(cellI, cellJ));
+        return
+            s < 0 || boundary->targets(s)[t] == at(i, j)
+          ? -1
+          : boundary->ghosts(s)[t];
+    }
+
     //- Where the node at (i, j, k) of the lattice folds for points of a cell,
     //  as text: node, signs, velocity added
     std::string image
@@ -527,6 +542,63 @@ TEST_CASE("nodeBoundary: mirror images in 3D")
     equal("convex edge", s.image({4, 2, 2}, {5, 4, 4}), "5 3 3" + even);
     equal("convex corner", s.image({2, 2, 2}, {4, 4, 4}), "3 3 3" + even);
     equal("face beside it", s.image({2, 2, 2}, {4, 4, 3}), "4 4 3" + even);
+}
+
+
+TEST_CASE("nodeBoundary: ghost nodes in a wall that both sides reach")
+{
+    for (const std::string& shape : shapes)
+    {
+        for (const int width : {2, 3})
+        {
+            // A plate that stands on the floor: cells 5 and 6 (and 7) up to 4
+            meshPlan plan = plan2D(13, 9);
+            plan.present = [width](int i, int j, int)
+            {
+                return !(i >= 5 && i < 5 + width && j < 5);
+            };
+            const scene s(plan, {}, shape);
+            const std::string of = shape + ", " + std::to_string(width);
+
+            // Behind the floor's corner, and up to the last node that only
+            // cells beside the plate reach
+            const bool shared = shape != "linear" && width == 2;
+            equal
+            (
+                "twins, " + of,
+                s.grid->nNodes() - s.grid->nBoxNodes(),
+                shared ? 5 : 0
+            );
+            if (!shared) continue;
+
+            for (const int j : {0, 1, 2})
+            {
+                const label left = s.ghost(4, j, 6, j);
+                equal("left side, " + of, left, s.at(6, j));
+                CHECK(s.ghost(7, j, 6, j) >= s.grid->nBoxNodes());
+                equal
+                (
+                    "one for all cells of a side, " + of,
+                    s.ghost(7, j + 1, 6, j), s.ghost(7, j, 6, j)
+                );
+            }
+
+            // Around the end of the plate the water is one
+            equal("end, left, " + of, s.ghost(4, 4, 6, 4), s.at(6, 4));
+            equal("end, right, " + of, s.ghost(7, 4, 6, 4), s.at(6, 4));
+        }
+    }
+
+    // Stairs of two cells: cells beyond the corner reach nodes of the other
+    // side
+    meshPlan plan = plan2D(12, 12);
+    plan.present = [](int i, int j, int) { return i < j || i > j + 1; };
+    const scene s(plan);
+    for (int j = 2; j < 9; ++j)
+    {
+        // Corner of the cell (j + 2, j) behind the wall, seen from (j, j + 1)
+        CHECK(s.ghost(j, j + 1, j + 2, j + 1) >= s.grid->nBoxNodes());
+    }
 }
 
 

@@ -83,7 +83,7 @@ void Foam::mpm::backgroundGrid::buildBox()
     }
     stride_ = {1, nNodes_[0], nNodes_[0]*nNodes_[1]};
 
-    meshCell_.setSize(nNodes(), -1);
+    meshCell_.setSize(nBoxNodes(), -1);
     boxCell_.setSize(nCells);
     for (label celli = 0; celli < nCells; ++celli)
     {
@@ -97,7 +97,7 @@ void Foam::mpm::backgroundGrid::buildBox()
 
 void Foam::mpm::backgroundGrid::exchangeCellOwners()
 {
-    cellRank_.setSize(nNodes());
+    cellRank_.setSize(nBoxNodes());
     cellRank_ = missing;
 
     // Lattice indices of the cells of each rank that may lie in my box
@@ -153,9 +153,11 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
             index3 first, last;
             for (label d = 0; d < 3; ++d)
             {
+                // Few cells may repeat more than once within the margin
+                const label n = lattice_.nCells(d);
                 const bool wrap = d < nDim() && lattice_.periodic(d);
-                first[d] = wrap ? -1 : 0;
-                last[d] = wrap ? 1 : 0;
+                last[d] = wrap ? (margin + n - 1)/n : 0;
+                first[d] = -last[d];
             }
             index3 w;
             for (w[2] = first[2]; w[2] <= last[2]; ++w[2])
@@ -204,10 +206,118 @@ void Foam::mpm::backgroundGrid::checkWallThickness() const
 }
 
 
+void Foam::mpm::backgroundGrid::findTwins()
+{
+    // The cells that reach a node, and which of them touch it
+    const label R = reachWidth_;
+    const label nBlock = reachSize();
+    labelList offset(nBlock), step(nDim());
+    boolList touches(nBlock, true);
+    for (label d = 0; d < nDim(); ++d) step[d] = d ? R*step[d - 1] : 1;
+    for (label b = 0; b < nBlock; ++b)
+    {
+        offset[b] = 0;
+        for (label d = 0; d < nDim(); ++d)
+        {
+            const label o = (b/step[d]) % R - (reachStart_ + R - 1);
+            offset[b] += o*stride_[d];
+            touches[b] = touches[b] && (o == -1 || o == 0);
+        }
+    }
+
+    // Sides of a node: the cells of each are connected by faces. Those that
+    // touch the node are one side, as they share it.
+    labelList side(nBlock);
+    DynamicList<label> front;
+    auto findSides = [&](const label node)
+    {
+        auto fill = [&](const label b, const label s)
+        {
+            if (side[b] >= 0 || cellRank_[node + offset[b]] == missing) return;
+            side[b] = s;
+            front.append(b);
+        };
+        auto spread = [&](const label s)
+        {
+            while (front.size())
+            {
+                const label b = front.remove();
+                for (label d = 0; d < nDim(); ++d)
+                {
+                    const label i = (b/step[d]) % R;
+                    if (i > 0) fill(b - step[d], s);
+                    if (i < R - 1) fill(b + step[d], s);
+                }
+            }
+        };
+        side = -1;
+        for (label b = 0; b < nBlock; ++b) if (touches[b]) fill(b, nBlock);
+        spread(nBlock);
+        for (label b = 0; b < nBlock; ++b)
+        {
+            fill(b, b);
+            spread(b);
+        }
+
+        // The first side has the node itself
+        label own = -1;
+        for (label b = 0; own != nBlock && b < nBlock; ++b)
+        {
+            if (side[b] >= 0 && (own < 0 || touches[b])) own = side[b];
+        }
+        for (label& s : side) if (s == own) s = -1;
+    };
+
+    bitSet reached(nBoxNodes());
+    for (const label cell : boxCell_)
+    {
+        for (label t = 0; t < nBlock; ++t)
+        {
+            reached.set(cell + reachOffset() + reachNode(t));
+        }
+    }
+    for (const label node : reached)
+    {
+        bool wall = false;
+        for (label b = 0; !wall && b < nBlock; ++b)
+        {
+            wall = cellRank_[node + offset[b]] == missing;
+        }
+        if (!wall) continue;
+
+        findSides(node);
+        const label firstOfNode = twinOf_.size();
+        for (label b = 0; b < nBlock; ++b)
+        {
+            if (side[b] < 0 || !ownCell(node + offset[b])) continue;
+
+            const Pair<label> twin(node, side[b]);
+            label i = twinOf_.size();
+            while (i > firstOfNode && twinOf_[i - 1] != twin) --i;
+            if (i == firstOfNode)
+            {
+                twinOf_.append(twin);
+                i = twinOf_.size();
+            }
+            // The node is that much before the last in reach of the cell
+            twin_.set
+            (
+                int64_t(nBlock)*(node + offset[b]) + nBlock - 1 - b,
+                nBoxNodes() + i - 1
+            );
+        }
+    }
+
+    // Twins are no cells
+    meshCell_.setSize(nNodes(), -1);
+    cellRank_.setSize(nNodes(), missing);
+}
+
+
 void Foam::mpm::backgroundGrid::buildExchange()
 {
     // Nodes in reach of own cells, and their neighbours
-    bitSet used(nNodes());
+    bitSet used(nBoxNodes());
     const label lo = min(reachStart_, label(0)) - 1;
     const label hi = max(reachStart_ + reachWidth_ - 1, label(1)) + 1;
     const bool is3D = nDim() == 3;
@@ -230,7 +340,14 @@ void Foam::mpm::backgroundGrid::buildExchange()
 
     if (shared)
     {
-        for (const label node : used)
+        // The same on each rank, with room for the ghost nodes outside of the
+        // lattice
+        int64_t nIds = 1;
+        for (label d = 0; d < nDim(); ++d)
+        {
+            nIds *= lattice_.nCells(d) + 2*margin + 2;
+        }
+        auto globalId = [&](const label node)
         {
             const index3 i = coordinate(node);
             int64_t id = 0;
@@ -239,12 +356,23 @@ void Foam::mpm::backgroundGrid::buildExchange()
                 label g = i[d] + lower_[d];
                 const label n = lattice_.nCells(d);
                 if (lattice_.periodic(d)) g = ((g % n) + n) % n;
-
-                // Room for the ghost nodes outside of the lattice
                 id = id*(n + 2*margin + 2) + (g + margin);
             }
+            return id;
+        };
+        for (const label node : used)
+        {
             nodes.append(node);
-            ids.append(id);
+            ids.append(globalId(node));
+        }
+        forAll(twinOf_, i)
+        {
+            nodes.append(nBoxNodes() + i);
+            ids.append
+            (
+                globalId(twinOf_[i].first())
+              + nIds*(1 + int64_t(twinOf_[i].second()))
+            );
         }
     }
     exchange_.reset(new nodeExchange(nodes, ids));
@@ -272,6 +400,7 @@ Foam::mpm::backgroundGrid::backgroundGrid
     buildBox();
     exchangeCellOwners();
     checkWallThickness();
+    findTwins();
     buildExchange();
 }
 

@@ -83,7 +83,7 @@ namespace
                     }
                     outside = outside
                      && (
-                            cell < 0 || cell >= grid.nNodes()
+                            cell < 0 || cell >= grid.nBoxNodes()
                          || grid.cellRank(cell) == backgroundGrid::missing
                         );
                 }
@@ -235,12 +235,12 @@ void Foam::mpm::nodeBoundary::buildStencils
     const label T = grid_.reachWidth();
     const label reachSize = grid_.reachSize();
 
-    stencilIndex_.setSize(grid_.nNodes(), -1);
+    stencilIndex_.setSize(grid_.nBoxNodes(), -1);
     if (!mirrorWalls) return;
 
     label nStencils = 0;
 
-    std::vector<label> target(reachSize);
+    std::vector<label> target(reachSize), ghost(reachSize);
     std::vector<nodeVector> sign(reachSize), shift(reachSize);
     const bool anyFriction = returnReduce(!friction_.empty(), orOp<bool>());
     std::vector<label> friction(anyFriction ? nDim*reachSize : 0);
@@ -346,6 +346,10 @@ void Foam::mpm::nodeBoundary::buildStencils
             label node = cell;
             for (label d = 0; d < nDim; ++d) node += o[d]*grid_.stride(d);
             target[t] = node;
+            ghost[t] =
+                node == cell + grid_.reachOffset() + grid_.reachNode(t)
+              ? node
+              : grid_.ghostNode(cell, t);
             sign[t] = sg;
             shift[t] = sh;
 
@@ -378,6 +382,7 @@ void Foam::mpm::nodeBoundary::buildStencils
 
             stencilIndex_[cell] = nStencils++;
             target_.insert(target_.end(), target.begin(), target.end());
+            ghost_.insert(ghost_.end(), ghost.begin(), ghost.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
             shift_.insert(shift_.end(), shift.begin(), shift.end());
             frictionOf_.insert
@@ -404,6 +409,8 @@ bool Foam::mpm::nodeBoundary::foldAlike
     const label R = grid_.reachWidth();
     const label* targetA = targets(a.stencil) + a.offset;
     const label* targetB = targets(b.stencil) + b.offset;
+    const label* ghostA = ghosts(a.stencil) + a.offset;
+    const label* ghostB = ghosts(b.stencil) + b.offset;
     const nodeVector* signA = signs(a.stencil) + a.offset;
     const nodeVector* signB = signs(b.stencil) + b.offset;
     const nodeVector* shiftA = shifts(a.stencil) + a.offset;
@@ -414,7 +421,7 @@ bool Foam::mpm::nodeBoundary::foldAlike
     for (label i = 0; i < W; ++i)
     {
         const label t = i + R*(j + R*k);
-        if (targetA[t] != targetB[t]) return false;
+        if (targetA[t] != targetB[t] || ghostA[t] != ghostB[t]) return false;
         for (label c = 0; c < 4; ++c)
         {
             if (signA[t][c] != signB[t][c]) return false;
@@ -432,10 +439,10 @@ void Foam::mpm::nodeBoundary::buildTiles()
     const label W = grid_.tileWidth();
 
     nParts_ = grid_.nodeCentred() ? 1 << nDim : 1;
-    tileIndex_.setSize(nParts_*grid_.nNodes(), -1);
+    tileIndex_.setSize(nParts_*grid_.nBoxNodes(), -1);
 
     // The parts of cells around each origin
-    for (label node = 0; node < grid_.nNodes(); ++node)
+    for (label node = 0; node < grid_.nBoxNodes(); ++node)
     {
         const label firstHere = nTiles();
 
@@ -535,7 +542,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
 
     DynamicList<label> slipNodes, fixedNodes;
 
-    for (label node = 0; node < grid_.nNodes(); ++node)
+    for (label node = 0; node < grid_.nBoxNodes(); ++node)
     {
         bool any = false;
         for (label i = 0; i < 2*nDim; ++i) any = any || walls[node][i] > 0;
@@ -752,6 +759,12 @@ Foam::mpm::nodeBoundary::nodeBoundary
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::mpm::nodeBoundary::isOpening(const word& patchType)
+{
+    return openTypes.found(patchType);
+}
+
+
 void Foam::mpm::nodeBoundary::activate(const bitSet& active)
 {
     DynamicList<label> list;
@@ -917,7 +930,10 @@ size_t Foam::mpm::nodeBoundary::memory() const
 {
     return
         sizeof(label)
-       *(stencilIndex_.size() + target_.size() + tileIndex_.size())
+       *(
+            stencilIndex_.size() + target_.size() + ghost_.size()
+          + tileIndex_.size()
+        )
       + sizeof(tileRecord)*tiles_.size()
       + sizeof(nodeVector)*(sign_.size() + shift_.size())
       + sizeof(scalar)*inverseVolume_.size();

@@ -11,7 +11,7 @@ License
 Foam::mpm::cellOrder::cellOrder(const backgroundGrid& grid)
 :
     grid_(grid),
-    number_(grid.nNodes(), -1),
+    number_(grid.nBoxNodes(), -1),
     nodes_(grid.nNodes()),
     shared_(grid.exchange().sharedNodes())
 {}
@@ -80,6 +80,10 @@ void Foam::mpm::cellOrder::activate(const pointStorage& points)
         }
     }
     for (const label node : shared_) nodes_.set(node);
+    nodes_.set
+    (
+        labelRange(grid_.nBoxNodes(), grid_.nNodes() - grid_.nBoxNodes())
+    );
 
     ranges_.clear();
     for (const label node : nodes_)

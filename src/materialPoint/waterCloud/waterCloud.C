@@ -115,6 +115,26 @@ Foam::scalar Foam::mpm::waterCloud::volumeRatioAhead
 }
 
 
+void Foam::mpm::waterCloud::correctBasins
+(
+    const scalarList& excess,
+    const scalar most
+)
+{
+    scalar* J = points_.column(J_);
+    for (label p = 0; p < size(); ++p)
+    {
+        const label basin =
+            basins_->ofCell(grid_.meshCell(points_.cell()[p]));
+        if (basin < 0) continue;
+
+        const scalar shrink = max(-most, min(most, excess[basin]));
+        J[p] *= 1 - shrink;
+        correctionWork_ += fluid_.pressure(J[p])*volume(p)*shrink;
+    }
+}
+
+
 void Foam::mpm::waterCloud::addOutletLoads()
 {
     if (!open_.valid() || !open_->anyWaterLevel()) return;

@@ -137,7 +137,8 @@ class waterKernelsFor
                             );
                     }
                 }
-                velocity[i][dim] = inside ? S[i] - 1 : max(0.0, S[i] - 1.1);
+                velocity[i][dim] =
+                    inside ? 1 - 1/S[i] : max(0.0, S[i] - 1.1);
             }
         );
 
@@ -146,6 +147,43 @@ class waterKernelsFor
         (
             [&](const label i) { velocity[i][dim] = 0; }
         );
+    }
+
+    //- Keep the volume of the water in full vessels
+    void correctBasins(const scalar deltaT)
+    {
+        waterCloud& c = cloud_;
+        // Through inlets and outlets anything may come and go
+        if (c.open_.valid()) return;
+
+        if (!c.basins_.valid())
+        {
+            c.basins_.reset(new closedBasins(c.boundary_, c.U_));
+        }
+        if (c.basins_->empty()) return;
+
+        const scalarList excess
+        (
+            c.basins_->excess
+            (
+                c.order_.nodeRanges(),
+                [&](const label i) { return volume(i); },
+                c.coupling_
+              ? c.coupling_->inversePoreVolume
+              : c.boundary_.inverseVolume(),
+                waterCloud::insideSaturation
+            )
+        );
+        // No faster than the largest error of a single point
+        bool any = false;
+        for (const scalar e : excess) any = any || e != 0;
+        if (any)
+        {
+            c.correctBasins
+            (
+                excess, makeMaterial(deltaT).correction*material::maxError
+            );
+        }
     }
 
     //- Keep the volume ratio of points in zones of open inlets, and give it
@@ -220,7 +258,11 @@ public:
 
         c.cost_.start("water: volume (nodes)");
         saturations();
-        if (c.settings_.volumeCorrection) volumeErrors();
+        if (c.settings_.volumeCorrection)
+        {
+            volumeErrors();
+            correctBasins(deltaT);
+        }
 
         c.cost_.start("water: stress and forces");
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
