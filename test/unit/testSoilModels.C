@@ -177,7 +177,14 @@ TEST_CASE("linearElastic: moduli, energy, wave speed")
 
 TEST_CASE("soil models: wave speed after a compression from no stress")
 {
-    for (const std::string stiffness : {"E0 216; n 0.5;", "E0 216; n 0.7;"})
+    for
+    (
+        const std::string stiffness :
+        {
+            "E0 216; n 0.5;", "E0 216; n 0.7;", "E0 216; n 0;",
+            "E0 216; n 1e-5;"
+        }
+    )
     for (const bool capped : {false, true})
     {
         autoPtr<soilModel> m
@@ -207,6 +214,53 @@ TEST_CASE("soil models: wave speed after a compression from no stress")
               - 1
             ),
             2e-3
+        );
+    }
+}
+
+
+TEST_CASE("soil models: the cap where stiffness hardly depends on pressure")
+{
+    const scalar e = 0.7;
+    for (const std::string n : {"0", "1e-300", "1e-5", "0.004", "0.0056", "0.02"})
+    {
+        auto model = [&](const std::string& E0)
+        {
+            return soilModelOf
+            (
+                "DruckerPrager",
+                grains + "E0 " + E0 + "; n " + n + "; nu 0.2; phi 35;"
+            );
+        };
+        autoPtr<soilModel> stiff(model("216")), soft(model("0.02"));
+        const scalar cs = std::sqrt(soft->waveSpeedSqr(100, e));
+        atMost("n " + n + ", soft: wave speed without the cap", cs, 20);
+        stiff->limitWaveSpeed(30);
+        soft->limitWaveSpeed(30);
+        for (const scalar p : {0.0, 1.0, 100.0, 1e6})
+        {
+            atMost
+            (
+                "n " + n + ", stiff: wave speed over the cap, distance to 1",
+                mag(std::sqrt(stiff->waveSpeedSqr(p, e))/30 - 1), 1e-12
+            );
+        }
+        atMost
+        (
+            "n " + n + ", soft: wave speed over that without the cap,"
+            " distance to 1",
+            mag(std::sqrt(soft->waveSpeedSqr(100, e))/cs - 1), 1e-12
+        );
+
+        // K of the cap, by a step of strain
+        soilElement s(*stiff, 3, e, {-100, -100, -100, 0, 0, 0});
+        for (int d = 0; d < 3; ++d) s.L(d, d) = -1.0/3;
+        s.step(1e-6);
+        const scalar K = 900.0*2650/(1 + e)/(1 + 4*0.75/3);
+        atMost
+        (
+            "n " + n + ": pressure after a compression, relative to K",
+            mag((s.p() - 100)/(1e-6*K) - 1), 1e-4
         );
     }
 }

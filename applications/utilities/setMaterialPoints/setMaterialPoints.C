@@ -469,8 +469,65 @@ static scalar voidRatioOf(const mpm::soilCloud& soil, const dictionary& dict)
 {
     return mpm::readBoundedOrDefault
     (
-        dict, "voidRatio", dimless, soil.model().e0(), 0, GREAT
+        dict, "voidRatio", dimless, soil.model().e0(),
+        soil.leastVoidRatio(), GREAT
     );
+}
+
+
+//- Soil that its own weight would compress beyond its voids is no soil: an
+//  error names what is too soft
+static void checkStiffness
+(
+    const mpm::soilCloud& soil,
+    const placedRegion& region,
+    const scalar weight,
+    const vector& up,
+    const dictionary& control
+)
+{
+    const mpm::soilModel& model = soil.model();
+    if (model.held()) return;
+
+    scalar lowest = GREAT;
+    for (label p = region.first; p < region.last; ++p)
+    {
+        lowest = min(lowest, up & soil.position(p));
+    }
+    reduce(lowest, minOp<scalar>());
+
+    const scalar pressure = weight*(region.level - lowest);
+    const scalar e = voidRatioOf(soil, region.dict);
+    if (!(pressure > 0)) return;
+
+    // By the stiffness that it has under this weight; of a suspension, that
+    // of its deposit
+    const scalar dense = min(e, model.e0());
+    const scalar waveSpeedSqr = model.waveSpeedSqr(pressure, dense);
+    const scalar strain = pressure*(1 + dense)/(model.rhoS()*waveSpeedSqr);
+    const scalar most = std::log(1 + dense);
+    if (strain <= most) return;
+
+    const word cap("maxSoilSoundSpeed");
+    const bool capped =
+        control.found(cap)
+     && waveSpeedSqr > 0.999*sqr(mpm::readPositive(control, cap, dimVelocity));
+    const dictionary& dict = capped ? control : model.coeffs();
+    const bool constant = dict.found("E");
+    const word keyword(capped ? cap : constant ? word("E") : word("E0"));
+    const scalar value = mpm::readPositive
+    (
+        dict, keyword, capped ? dimVelocity : constant ? dimPressure : dimless
+    );
+
+    FatalIOErrorInFunction(dict)
+        << "keyword " << keyword << " has the value " << value
+        << ": soil so soft is compressed beyond its void ratio, " << dense
+        << ", by its own weight (" << pressure << " Pa in the region "
+        << region.dict.dictName() << ")." << nl
+        << "    Allowed: " << keyword << " > "
+        << value*(capped ? std::sqrt(strain/most) : strain/most)
+        << exit(FatalIOError);
 }
 
 
@@ -482,13 +539,20 @@ static void setWaterState
     const scalar volume,
     const vector& up,
     const scalar g,
-    const mpm::soilCloud* soil,
+    mpm::soilCloud* soil,
     const std::vector<placedRegion>& soilRegions
 )
 {
-    scalar surface = -GREAT;
-    for (const placedRegion& r : regions) surface = max(surface, r.level);
-    water.findSoundSpeed(surface);
+    scalar surface = -GREAT, landing = GREAT;
+    for (const placedRegion& r : regions)
+    {
+        surface = max(surface, r.level);
+        landing = min(landing, r.level);
+    }
+    water.findSoundSpeed
+    (
+        surface, landing, soil && !soil->model().held() ? soil : nullptr
+    );
 
     for (const placedRegion& r : regions)
     {
@@ -615,6 +679,11 @@ static void setSoilState
     {
         anyZone = anyZone || isA<mpm::cellZoneRegion>(*r.region);
         weights.append(effectiveWeight(soil, r.dict, g, water));
+        checkStiffness
+        (
+            soil, r, weights.last(), up,
+            soil.grid().mesh().solutionDict().subOrEmptyDict("MPM")
+        );
     }
 
     forAll(weights, regioni)

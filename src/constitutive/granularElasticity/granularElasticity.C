@@ -105,7 +105,7 @@ Foam::mpm::granularElasticity::granularElasticity
         law_,
         [&](auto l)
         {
-            uncapped_ = makeRange<decltype(l)::value>(pE, VGREAT);
+            uncapped_ = makeRange<decltype(l)::value>(pE, VGREAT, VGREAT);
             return scalar(0);
         }
     );

@@ -679,14 +679,23 @@ void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
 
     if (any)
     {
-        List<string> all(Pstream::nProcs());
-        all[Pstream::myProcNo()] = found;
-        Pstream::gatherList(all);
+        // Velocities spread over the nodes to both clouds in one step; a state
+        // that is not finite is nearer to the cause
+        string state(soil_ ? soil_->nonFiniteState() : string());
+        if (state.empty() && water_) state = water_->nonFiniteState();
+
+        List<stringList> ofRank(Pstream::nProcs());
+        ofRank[Pstream::myProcNo()] = stringList({state, found});
+        Pstream::gatherList(ofRank);
         if (Pstream::master())
         {
-            for (const string& text : all)
+            found = string();
+            for (const label what : {0, 1})
             {
-                if (found.empty()) found = text;
+                for (const stringList& texts : ofRank)
+                {
+                    if (found.empty()) found = texts[what];
+                }
             }
         }
         Info<< "--> non-finite value at time " << runTime.timeName() << ": "
@@ -702,7 +711,10 @@ void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
             << limiter_ << nl << "    The state was written to "
             << runTime.timePath() << " for inspection." << nl
             << "    Restart from the write time before it, with a smaller"
-            << " maxCo." << exit(FatalError);
+            << " maxCo; if it stops again, look at the state named above: a"
+            << " void ratio or volume ratio near zero asks for stiffer soil"
+            << " (E0, E, maxSoilSoundSpeed) or a higher soundSpeed."
+            << exit(FatalError);
     }
 }
 
@@ -795,6 +807,31 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
             Info<< "--> water: the density varies by " << 100*variation
                 << " % (99th percentile); raise soundSpeed above "
                 << water_->fluid().soundSpeed() << " m/s for less" << nl;
+        }
+    }
+    if (soil_ && settings_.maxSoilSoundSpeed < GREAT)
+    {
+        // Softened soil that meets at such a speed stores the impact, instead
+        // of yielding to it, and throws it back
+        const scalar cap = settings_.maxSoilSoundSpeed;
+        const scalar most = cap/3;
+        const scalar fastest = returnReduce(soil_->maxSpeed(), maxOp<scalar>());
+        if (fastest > most)
+        {
+            const label nFaster =
+                returnReduce(soil_->nFaster(most), sumOp<label>());
+            const scalar share =
+                scalar(nFaster)/max(label(1), soil_->globalSize());
+
+            // As for water: single grains in the air do not matter
+            if (share > 0.01)
+            {
+                Info<< "--> soil: " << 100*share << " % of the points are faster"
+                    << " than a third of maxSoilSoundSpeed " << cap
+                    << " m/s (the fastest: " << fastest << " m/s); impacts"
+                    << " bounce like rubber. Raise maxSoilSoundSpeed above "
+                    << 3*fastest << " m/s, or leave it out" << nl;
+            }
         }
     }
     Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"

@@ -341,6 +341,36 @@ void Foam::mpm::materialPointCloud::finishPoints()
 }
 
 
+Foam::mpm::materialPointCloud::motion
+Foam::mpm::materialPointCloud::startMotion(const vector& up)
+{
+    motion m{0, 0, GREAT, GREAT};
+    if (open_.valid() && open_->inlets().size())
+    {
+        m.inletSpeed = open_->maxSpeed
+        (
+            time().startTime().value(), time().endTime().value()
+        );
+        m.inletBottom = open_->bottom(up);
+    }
+
+    findMaxSpeed();
+    m.initialSpeed = maxSpeed();
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar height = 0;
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            height += up[grid_.cells().axis(d)]*x(d)[p];
+        }
+        m.lowest = min(m.lowest, height);
+    }
+    reduce(m.lowest, minOp<scalar>());
+    reduce(m.initialSpeed, maxOp<scalar>());
+    return m;
+}
+
+
 void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 {
     cost_.start("relocate and sort");
@@ -387,7 +417,9 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
                 << backgroundGrid::margin << " cells in one time step of "
                 << deltaT << " s, to " << position(p) << '.' << nl
                 << "    The time step is too large or the flow unstable:"
-                << " lower maxCo (or deltaT if adjustTimeStep is no)."
+                << " lower maxCo (or deltaT if adjustTimeStep is no). Where"
+                << " the log has warned of density or of maxSoilSoundSpeed,"
+                << " raise soundSpeed or that."
                 << exit(FatalError);
         }
 
@@ -702,6 +734,34 @@ void Foam::mpm::materialPointCloud::findMaxSpeed()
 }
 
 
+Foam::label Foam::mpm::materialPointCloud::nFaster(const scalar speed) const
+{
+    label n = 0;
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar sqr = 0;
+        for (label d = 0; d < grid_.nDim(); ++d) sqr += Foam::sqr(v(d)[p]);
+        n += sqr > Foam::sqr(speed);
+    }
+    return n;
+}
+
+
+Foam::string Foam::mpm::materialPointCloud::describe(const label p) const
+{
+    vector velocity(Zero);
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        velocity[grid_.cells().axis(d)] = v(d)[p];
+    }
+    OStringStream os;
+    os  << "cloud " << name() << ", point " << label(points_.column(id_)[p])
+        << ", mesh cell " << grid_.meshCell(points_.cell()[p])
+        << ", position " << position(p) << ", velocity " << velocity;
+    return os.str();
+}
+
+
 Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
 {
     if (std::isfinite(sums_.sumSpeedSqr)) return string();
@@ -709,19 +769,11 @@ Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
     for (label p = 0; p < size(); ++p)
     {
         bool finite = true;
-        vector velocity(Zero);
         for (label d = 0; d < grid_.nDim(); ++d)
         {
-            velocity[grid_.cells().axis(d)] = v(d)[p];
             finite = finite && std::isfinite(v(d)[p]);
         }
-        if (finite) continue;
-
-        OStringStream os;
-        os  << "cloud " << name() << ", point " << label(points_.column(id_)[p])
-            << ", mesh cell " << grid_.meshCell(points_.cell()[p])
-            << ", position " << position(p) << ", velocity " << velocity;
-        return os.str();
+        if (!finite) return describe(p);
     }
     return "cloud " + name() + ", sum of squared speeds overflows";
 }

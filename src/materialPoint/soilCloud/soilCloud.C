@@ -158,6 +158,14 @@ Foam::mpm::soilCloud::soilCloud
         compressionGradient_ =
             points_.add("compressionGradient", pointStorage::vectorValue);
     }
+    if (control.coupled)
+    {
+        // Named if it is too small
+        readBounded
+        (
+            model_->coeffs(), "e0", dimless, leastVoidRatio(), GREAT
+        );
+    }
     if (control.maxSoilSoundSpeed < GREAT)
     {
         model_->limitWaveSpeed(control.maxSoilSoundSpeed);
@@ -280,7 +288,12 @@ Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
     scalar waveSpeedSqr = returnReduce(waveSpeedSqr_, maxOp<scalar>());
     const scalar voidRatio = returnReduce(minVoidRatio_, minOp<scalar>());
     const bool empty = !(voidRatio < GREAT);
-    const scalar porosity = empty ? 1 : voidRatio/(1 + voidRatio);
+
+    // As the nodes have it
+    const scalar porosity =
+        empty
+      ? 1
+      : max(voidRatio/(1 + voidRatio), couplingFields::minPorosity);
 
     // Soil may come in before there is any
     if (empty) waveSpeedSqr = model_->waveSpeedSqr(0, model_->e0());
@@ -468,6 +481,24 @@ void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
         "fvSolution/MPM/maxSoilSoundSpeed"
     );
     openEffects(table);
+}
+
+
+Foam::string Foam::mpm::soilCloud::nonFiniteState() const
+{
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar pressure = 0;
+        for (label d = 0; d < 3; ++d)
+        {
+            pressure -= points_.column(sigma_ + d)[p]/3;
+        }
+        if (std::isfinite(pressure) && std::isfinite(voidRatio()[p])) continue;
+        return
+            describe(p) + ", void ratio " + Foam::name(voidRatio()[p])
+          + ", mean effective stress " + Foam::name(pressure) + " Pa";
+    }
+    return string();
 }
 
 // ************************************************************************* //

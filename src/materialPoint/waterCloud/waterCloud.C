@@ -371,7 +371,12 @@ void Foam::mpm::waterCloud::checkDictionary
 }
 
 
-void Foam::mpm::waterCloud::findSoundSpeed(const scalar surface)
+void Foam::mpm::waterCloud::findSoundSpeed
+(
+    const scalar surface,
+    const scalar landing,
+    materialPointCloud* soil
+)
 {
     if (!fluid_.autoSoundSpeed()) return;
 
@@ -379,49 +384,40 @@ void Foam::mpm::waterCloud::findSoundSpeed(const scalar surface)
     const scalar g = mag(g_);
     const vector up = (g > 0 ? -g_/g : vector(Zero));
 
-    scalar inletSpeed = 0, inletBottom = GREAT, highest = surface;
-    if (open_.valid() && open_->inlets().size())
-    {
-        inletSpeed = open_->maxSpeed
-        (
-            time().startTime().value(), time().endTime().value()
-        );
-        inletBottom = open_->bottom(up);
-        highest = max(highest, open_->top(up));
-    }
-
     scalar floor = GREAT;
     for (const point& x : mesh_.points()) floor = min(floor, up & x);
     reduce(floor, minOp<scalar>());
 
-    scalar lowest = GREAT;
-    findMaxSpeed();
-    scalar fastest = maxSpeed();
-    for (label p = 0; p < size(); ++p)
+    scalar highest = surface;
+    if (open_.valid() && open_->inlets().size())
     {
-        scalar height = 0;
-        for (label d = 0; d < grid_.nDim(); ++d)
-        {
-            height += up[grid_.cells().axis(d)]*x(d)[p];
-        }
-        lowest = min(lowest, height);
+        highest = max(highest, open_->top(up));
     }
-    reduce(lowest, minOp<scalar>());
-    reduce(fastest, maxOp<scalar>());
+    const scalar wave = std::sqrt(g*max(scalar(0), highest - floor));
+    scalar reference = wave;
 
-    // Half a cell: points stand off the floor
-    scalar drop = 0;
-    if (lowest < GREAT)
+    const scalar spacing = grid_.cells().minSpacing();
+    auto speeds = [&](materialPointCloud& cloud, const scalar ground)
     {
-        drop = max(drop, lowest - floor - grid_.cells().minSpacing());
+        const motion m(cloud.startMotion(up));
+        const scalar fall = std::sqrt(2*g*m.drop(ground, spacing));
+        reference = max
+        (
+            reference, max(m.inletSpeed, max(m.initialSpeed, fall))
+        );
+        OStringStream os;
+        os  << "inlet " << m.inletSpeed << ", initial " << m.initialSpeed
+            << ", sqrt(2 g drop) " << fall;
+        return os.str();
+    };
+    const std::string own(speeds(*this, floor));
+
+    // Soil hits the water as water would
+    std::string others;
+    if (soil)
+    {
+        others = "; soil: " + speeds(*soil, landing < GREAT ? landing : floor);
     }
-    if (inletBottom < GREAT) drop = max(drop, inletBottom - floor);
-    const scalar depth = max(scalar(0), highest - floor);
-    const scalar reference = max
-    (
-        max(inletSpeed, fastest),
-        max(std::sqrt(2*g*drop), std::sqrt(g*depth))
-    );
 
     if (reference <= SMALL)
     {
@@ -437,9 +433,8 @@ void Foam::mpm::waterCloud::findSoundSpeed(const scalar surface)
     select();
 
     Info<< "Speed of sound of " << name() << ": " << fluid_.soundSpeed()
-        << " m/s = 10 max(inlet " << inletSpeed << ", initial " << fastest
-        << ", sqrt(2 g drop) " << std::sqrt(2*g*drop)
-        << ", sqrt(g H) " << std::sqrt(g*depth) << ')' << endl;
+        << " m/s = 10 max(" << own.c_str() << ", sqrt(g H) " << wave
+        << others.c_str() << ')' << endl;
 }
 
 
@@ -477,7 +472,8 @@ Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
             << ", mesh cell " << grid_.meshCell(points_.cell()[p])
             << " has the volume ratio J = " << J()[p]
             << "; it must be positive." << nl
-            << "    The flow is unstable: lower maxCo (or deltaT if"
+            << "    The flow is unstable: raise soundSpeed if the log has"
+            << " warned of density, else lower maxCo (or deltaT if"
             << " adjustTimeStep is no)." << exit(FatalError);
     }
 
@@ -598,6 +594,17 @@ Foam::scalar Foam::mpm::waterCloud::densityVariation() const
     const auto percentile = variation.begin() + label(0.99*(size() - 1));
     std::nth_element(variation.begin(), percentile, variation.end());
     return *percentile;
+}
+
+
+Foam::string Foam::mpm::waterCloud::nonFiniteState() const
+{
+    for (label p = 0; p < size(); ++p)
+    {
+        if (std::isfinite(J()[p])) continue;
+        return describe(p) + ", volume ratio " + Foam::name(J()[p]);
+    }
+    return string();
 }
 
 // ************************************************************************* //
