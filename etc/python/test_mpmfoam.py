@@ -123,6 +123,10 @@ def testDatOfRestart(tmp_path):
     second.write_text("# time x\n0.2 (5 6)\n")
     rows = postProcessing.readDat(tmp_path, "front", "front.dat")
     assert rows.tolist() == [[0, 1, 2], [0.1, 3, 4], [0.2, 5, 6]]
+    # The same time, but for its last digit
+    second.write_text("# time x\n0.10000000000000002 (5 6)\n")
+    rows = postProcessing.readDat(tmp_path, "front", "front.dat")
+    assert rows[:, 1].tolist() == [1, 5]
     second.write_text("# time x y\n0.2 5 6\n")
     columns = postProcessing.readColumns(tmp_path, "front", "front.dat")
     assert list(columns) == ["time", "x", "y"]

@@ -507,6 +507,41 @@ def testRanksAgree(tmp_path, figures, cut):
     agree(figures, parallel, serial)
 
 
+@pytest.mark.parametrize("seed", [2])
+def testOutletAtRankBorder(tmp_path, figures, seed):
+    """What crosses a border between ranks and leaves in the same step does not
+    count for the time step any more: cells dealt to the ranks at random"""
+    setup = Setup(
+        cells=(24, 18), h=0.01, points=2, energy=False,
+        regions={"flow": hydrostatic((0, 0), (0.12, 0.1),
+                                     velocity=(0.5, 0, 0))},
+        sides={"xmin": fixed(0.3, 0, 0), "xmax": ("patch", "zeroGradient"),
+               "ymax": ("wall", "slip")},
+        mpm={"logInterval": 1}).steps(60)
+    setup.water["inflowOutflow"] = {
+        "inlets": {"river": {"patch": "xmin", "discharge": 0.08, "base": 0,
+                             "depth": 0.1, "pointsPerDirection": 2,
+                             "zoneCells": 2}},
+        "outlets": {
+            "end": {"type": "patch", "patch": "xmax"},
+            "lim": {"type": "limit", "point": (0.2, 0, 0),
+                    "normal": (1, 0, 0)},
+            "sump": {"type": "region", "region": box((0.1, 0.02),
+                                                     (0.13, 0.05))}},
+        "recycle": True}
+    serial = setup.write(tmp_path/"serial").prepare()
+    parallel = serial.clone(tmp_path/"parallel").decompose(
+        2, cellRank=np.random.default_rng(seed).integers(0, 2, 24*18))
+    steps = []
+    for case, ranks in [(serial, 1), (parallel, 2)]:
+        text = case.solve(ranks=ranks).text
+        steps.append(np.array(re.findall(r"deltaT = (\S+)", text), float))
+    figures.atLeast("points that left", serial.state()["left"], 50)
+    figures.atMost("relative difference of the time steps",
+                   float(np.max(np.abs(steps[0]/steps[1] - 1))), 1e-9)
+    agree(figures, parallel, serial)
+
+
 def testSoil(tmp_path, figures):
     """Soil enters and leaves, too"""
     setup = Setup(

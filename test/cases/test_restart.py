@@ -9,7 +9,10 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
+
+from mpmfoam.postProcessing import readDat
 
 from caseBuilder import damBreak
 
@@ -123,21 +126,154 @@ def continued(case, reference, figures):
                   max(reference.timesByStep()))
 
 
-def testTerminate(tmp_path, figures, reference):
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP", "SIGUSR1"])
+def testTerminate(tmp_path, figures, reference, name):
+    """After the step, with a restart; a second signal changes nothing"""
     case = anew(reference, tmp_path/"case")
     process = case.start()
     case.waitForTime(process, 0.02)
-    process.send_signal(signal.SIGTERM)
+    for _ in range(2):
+        process.send_signal(getattr(signal, name))
     status = case.waitForEnd(process)
     last = case.times[-1]
     text = (case.path/"log.mpmFoam").read_text()
-    figures.equal("exit status after SIGTERM", status, 0)
-    figures.holds("log names SIGTERM", "SIGTERM" in text)
+    figures.equal(f"exit status after {name}", status, 0)
+    figures.equal("times the log names it", text.count(f"{name}: writing"), 1)
     figures.holds("log has End", case.log.finished)
     figures.equal("complete state at the last time",
                   "complete" in (case.path/last/"uniform"/"materialPoints")
                   .read_text(), True)
     continued(case, reference, figures)
+
+
+def wroteOnlyThen(case, process, send, figures, limit=40):
+    """A run that writes at its end alone: is that time whole"""
+    case.change(control={"writeInterval": 1000000})
+    process = process()
+    case.waitForTime(process, 0.02)
+    send(process)
+    end = time.monotonic() + limit
+    roots = [p for p in case.path.glob("processor*")] or [case.path]
+
+    def states():
+        return [p for root in roots
+                for p in root.glob("*/uniform/materialPoints")
+                if p.parts[-3] != "0" and "complete" in p.read_text()]
+    while len(states()) < len(roots) and time.monotonic() < end:
+        time.sleep(0.1)
+    case.waitForEnd(process)
+    figures.equal("whole times written", len(states()), len(roots))
+
+
+def testInterruptPipe(tmp_path, figures, reference):
+    """Ctrl-C ends who reads the log, too"""
+    case = anew(reference, tmp_path/"case")
+
+    def start():
+        return subprocess.Popen(
+            ["bash", "-c", "mpmFoam 2>&1 | cat > log.mpmFoam"],
+            cwd=case.path, start_new_session=True,
+            env={**os.environ, "PWD": str(case.path)})
+    wroteOnlyThen(case, start,
+                  lambda p: os.killpg(p.pid, signal.SIGINT), figures)
+    case.change(control={"writeInterval": 25})
+    continued(case, reference, figures)
+
+
+@pytest.mark.parametrize("names", [
+    ["SIGINT"], ["SIGINT", "SIGINT"], ["SIGUSR1"]], ids="+".join)
+def testInterruptMpirun(tmp_path, figures, reference, names):
+    """What mpirun makes of signals that it gets itself: it kills some seconds
+    after SIGINT, and ends at once after the second one"""
+    case = anew(reference, tmp_path/"case")
+    case.decompose(2)
+
+    def send(process):
+        for name in names:
+            process.send_signal(getattr(signal, name))
+            time.sleep(1)
+    wroteOnlyThen(case, lambda: case.start("mpmFoam", ranks=2), send, figures)
+    case.change(control={"stopAt": "nextWrite", "writeInterval": 25})
+    result = case.solve(ranks=2)
+    figures.holds("nothing is set aside", "incomplete" not in result.text)
+
+
+def energySetup(seconds):
+    setup = damBreak().until(seconds, write=0.005)
+    setup.functions["each"] = {
+        "type": "frontPosition", "libs": '("libmpmFunctionObjects.so")',
+        "cloud": "water", "direction": (1, 0, 0), "writeControl": "timeStep",
+        "writeInterval": 1}
+    return setup
+
+
+def testSeriesOverRestarts(tmp_path, figures):
+    """Each time once, after restarts from earlier times: the series is that of
+    a run without them, where it was not overtaken"""
+    case = energySetup(0.03).write(tmp_path/"case").prepare()
+    whole = case.clone(tmp_path/"whole")
+    whole.solve()
+    # The second one starts before the first one did, and ends before it
+    for start, end in [(None, 0.02), ("0.015", 0.03), ("0.01", 0.025)]:
+        for t in case.times[1:]:
+            if start and float(t) > float(start):
+                shutil.rmtree(case.path/t)
+        case.change(control={"endTime": end})
+        case.solve()
+    a, b = (readDat(c.path, "each", "front.dat") for c in (case, whole))
+    figures.atLeast("steps in the series", len(a), 20)
+    figures.holds("each time once", (np.diff(a[:, 0]) > 0).all())
+    b = b[b[:, 0] < 0.025*(1 + 1e-9)]
+    figures.equal("number of times", len(a), len(b))
+    if len(a) == len(b):
+        figures.atMost("difference to the run without restarts",
+                       float(np.max(np.abs(a - b))), 1e-12)
+
+
+def testSeriesOfShortSteps(tmp_path, figures):
+    """Steps shorter than names of times tell apart"""
+    case = energySetup(0.01).write(tmp_path/"case").prepare()
+    case.solve()
+    case.change(control={
+        "adjustTimeStep": False, "deltaT": 1e-7, "timePrecision": 3,
+        "writeControl": "timeStep", "writeInterval": 1000,
+        "endTime": 0.010002})
+    case.solve()
+    a = readDat(case.path, "each", "front.dat")
+    figures.equal("times from 0.01 s on",
+                  len(np.unique(a[a[:, 0] > 0.00999999, 0])), 21)
+
+
+@pytest.mark.parametrize("control", ["run", "functionObject"])
+def testTinyWriteInterval(tmp_path, figures, control):
+    """An interval that no name of a time can show is refused, one that is
+    hardly longer costs no more than another"""
+    case = energySetup(0.02).write(tmp_path/"case").prepare()
+    case.solve()
+
+    def change(interval):
+        entries = {"writeControl": "adjustableRunTime",
+                   "writeInterval": interval}
+        if control == "run":
+            case.change(control={**entries, "endTime": 0.04})
+        else:
+            case.change(control={"endTime": 0.04},
+                        functions={"each": entries})
+    for interval, text in [(1e-20, "1e-20"), (1e-12, "1e-12")]:
+        change(interval)
+        result = case.solve(check=False)
+        figures.holds(f"{text} s: ends with an error", result.status != 0)
+        where = (r"controlDict\.functions\.each" if control ==
+                 "functionObject" else "controlDict")
+        flat = re.sub(r"\s+", " ", result.text)
+        pattern = (rf"writeInterval is {text} s, less .*Allowed: writeInterval"
+                   rf" >= 1e-0?8.*{where}")
+        figures.contains(f"{text} s: message", (re.search(
+            pattern, flat) or [None])[0], pattern)
+    change(1e-7)
+    case.change(control={"endTime": 0.020002})
+    case.solve()
+    figures.equal("steps of 1e-7 s", case.log.stepCount, 20)
 
 
 def testTerminateParallel(tmp_path, figures, reference):

@@ -13,7 +13,8 @@ Description
     Method: material points carry the state, the mesh is the background grid
     on which they exchange momentum.
 
-    SIGTERM and stopAt writeNow end the run after writing a restart.
+    Ctrl-C, SIGTERM and stopAt writeNow end the run after the step, with a
+    restart written.
 
 \*---------------------------------------------------------------------------*/
 
@@ -23,17 +24,7 @@ Description
 #include "sigFpe.H"
 #include "PstreamReduceOps.H"
 #include "materialPointSystem.H"
-#include <csignal>
-
-namespace
-{
-    volatile std::sig_atomic_t terminated = 0;
-
-    void terminate(int)
-    {
-        terminated = 1;
-    }
-}
+#include "endSignals.H"
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
@@ -71,7 +62,7 @@ int main(int argc, char *argv[])
     points.read(runTime);
     points.reportEffects();
 
-    std::signal(SIGTERM, terminate);
+    const mpm::endSignals signals;
 
     Info<< "Starting time loop\n" << endl;
 
@@ -90,9 +81,10 @@ int main(int argc, char *argv[])
 
         points.checkFinite(runTime);
 
-        if (returnReduce(label(terminated), maxOp<label>()))
+        const string reason(signals.received());
+        if (!reason.empty())
         {
-            points.stop(runTime);
+            points.stop(runTime, reason);
         }
 
         points.updateMeshFields();

@@ -10,8 +10,9 @@ def readDat(casePath, functionObject, fileName):
     """All rows of postProcessing/<functionObject>/<startTime>/<fileName>.
 
     A run that was restarted has one directory per start: a later start
-    replaces what an earlier one wrote from its start time on. Brackets of
-    vectors are ignored. Returns a 2D array, the time in column 0."""
+    replaces what an earlier one wrote from its start time on, but for
+    rounding, so that each time is there once. Brackets of vectors are ignored.
+    Returns a 2D array, the time in column 0."""
     root = Path(casePath)/"postProcessing"/functionObject
     starts = sorted((p for p in root.glob("*") if (p/fileName).is_file()),
                     key=lambda p: float(p.name))
@@ -24,7 +25,8 @@ def readDat(casePath, functionObject, fileName):
         if not len(new):
             continue
         if len(rows):
-            new = np.concatenate([rows[rows[:, 0] < new[0, 0]], new])
+            first = new[0, 0] - 1e-12*abs(new[0, 0])
+            new = np.concatenate([rows[rows[:, 0] < first], new])
         rows = new
     return rows
 

@@ -31,7 +31,11 @@ void Foam::mpm::cloudTimeSeries::openFile()
             useUserTime_ ? mesh_.time().timeToUserTime(start) : start
         )
     );
-    mvBak(directory/(fileName_ + ".dat"));
+    if (Pstream::master())
+    {
+        mvBak(directory/(fileName_ + ".dat"));
+        if (first) setLaterAside(start);
+    }
     filePtr_ = createFile(fileName_, start);
 
     OFstream& os = file();
@@ -40,6 +44,23 @@ void Foam::mpm::cloudTimeSeries::openFile()
     writeCommented(os, "Time");
     for (const word& column : columns_) writeTabbed(os, column);
     os  << endl;
+}
+
+
+void Foam::mpm::cloudTimeSeries::setLaterAside(const scalar start) const
+{
+    const fileName root(baseFileDir()/prefix_);
+    for (const fileName& name : readDir(root, fileName::DIRECTORY))
+    {
+        scalar other = 0;
+        const fileName path(root/name/(fileName_ + ".dat"));
+        if (readScalar(name, other) && other > start && isFile(path, false))
+        {
+            mvBak(path);
+            Info<< type() << ' ' << this->name() << ": this run starts before "
+                << path << " does; it was renamed to .bak" << nl << endl;
+        }
+    }
 }
 
 
@@ -113,7 +134,16 @@ bool Foam::mpm::cloudTimeSeries::write()
         if (writeToFile())
         {
             OFstream& os = file();
-            writeCurrentTime(os);
+
+            // Names of times may be shared by several steps
+            os  << setw(charWidth())
+                << Time::timeName
+                   (
+                       useUserTime_
+                     ? mesh_.time().timeOutputValue()
+                     : mesh_.time().value(),
+                       timeDigits
+                   );
             for (const scalar number : numbers)
             {
                 os  << tab << valueWidth() << number;

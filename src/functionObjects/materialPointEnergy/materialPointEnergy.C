@@ -36,23 +36,31 @@ Foam::stringList Foam::mpm::materialPointEnergy::description() const
     return stringList
     ({
         "Energies and works [J]; total = kinetic + potential + stressWork"
+      + string(cloud().forced() ? " - forceWork" : "")
+      + string(cloud().relaxes() ? " - relaxationWork" : "")
     });
 }
 
 
 Foam::wordList Foam::mpm::materialPointEnergy::columns() const
 {
-    return wordList
+    wordList names
     ({
         "kinetic", "potential", "elastic", "stressWork", "correctionWork",
         "total"
     });
+    if (cloud().forced()) names.append("forceWork");
+    if (cloud().relaxes()) names.append("relaxationWork");
+    return names;
 }
 
 
 Foam::scalarList Foam::mpm::materialPointEnergy::values() const
 {
-    scalarList e(6, Zero);
+    // Beside those that are always there
+    const label forced = cloud().forced();
+    const label relaxes = cloud().relaxes();
+    scalarList e(6 + forced + relaxes, Zero);
     scalar& kinetic = e[0];
     scalar& potential = e[1];
     scalar& elastic = e[2];
@@ -63,9 +71,12 @@ Foam::scalarList Foam::mpm::materialPointEnergy::values() const
     cloud().energy(g_, kinetic, potential, elastic);
     stressWork = cloud().stressWork();
     correctionWork = cloud().correctionWork();
+    if (forced) e[6] = cloud().forceWork();
+    if (relaxes) e[6 + forced] = cloud().relaxationWork();
     sumToMaster(e);
 
     total = kinetic + potential + stressWork;
+    for (label i = 6; i < e.size(); ++i) total -= e[i];
     return e;
 }
 

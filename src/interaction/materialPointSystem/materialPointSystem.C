@@ -43,6 +43,19 @@ void Foam::mpm::materialPointSystem::readSettings()
       ? readPositive(control_, "maxSoilSoundSpeed", dimVelocity)
       : GREAT;
 
+    settings_.gravityInTime = control_.found("gravity");
+    if (control_.found("relaxation"))
+    {
+        const dictionary& relaxation = control_.subDict("relaxation");
+        checkKeywords
+        (
+            relaxation, {"until", "damping"}, settings_.strictKeywords
+        );
+        settings_.relaxationUntil = readPositive(relaxation, "until", dimTime);
+        settings_.relaxationDamping =
+            readBoundedOrDefault(relaxation, "damping", dimless, 0.7, 0, 1);
+    }
+
     settings_.energyBalance.clear();
     if (const dictionary* functions = time_.controlDict().findDict("functions"))
     {
@@ -70,7 +83,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
             "volumeCorrection", "overlapCorrection", "maxSoilSoundSpeed",
-            "pressureForm", "logInterval", "strictKeywords"
+            "pressureForm", "logInterval", "strictKeywords", "gravity",
+            "relaxation"
         },
         settings_.strictKeywords
     );
@@ -127,6 +141,78 @@ void Foam::mpm::materialPointSystem::readGravity()
                 << vector::componentNames[e] << ", where gravity must be zero."
                 << exit(FatalError);
         }
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::readForces()
+{
+    gravityInTime_ =
+        vectorInTime::New(control_, "gravity", dimAcceleration, grid_.cells());
+    if (water_)
+    {
+        pressureGradient_ = vectorInTime::New
+        (
+            properties_.subDict("water"), "pressureGradient",
+            dimPressure/dimLength, grid_.cells()
+        );
+    }
+
+    forced_ = false;
+    for (materialPointCloud& cloud : clouds_)
+    {
+        if (pressureGradient_.valid()) cloud.setForced();
+        forced_ = forced_ || cloud.forced();
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::setForces(const scalar deltaT)
+{
+    // At mid-step
+    const scalar time = time_.value() - 0.5*deltaT;
+
+    if (forced_)
+    {
+        const vector common
+        (
+            gravityInTime_.valid() ? gravityInTime_->value(time) - g_ : Zero
+        );
+        const vector gradient
+        (
+            pressureGradient_.valid() ? pressureGradient_->value(time) : Zero
+        );
+        for (materialPointCloud& cloud : clouds_)
+        {
+            const scalar rho =
+                &cloud == static_cast<materialPointCloud*>(water_)
+              ? water_->fluid().rho0() : soil_->model().rhoS();
+            cloud.setForce(common + cloud.bodyForce(time) - gradient/rho);
+        }
+    }
+    if (settings_.relaxationDamping > 0)
+    {
+        const bool relaxes = time < settings_.relaxationUntil;
+        for (materialPointCloud& cloud : clouds_)
+        {
+            cloud.setDamping(relaxes ? settings_.relaxationDamping : 0);
+        }
+        if (relaxed_ && !relaxes)
+        {
+            for (const materialPointCloud& cloud : clouds_)
+            {
+                Info<< cloud.name() << ": relaxation ended, it gave "
+                    << returnReduce(cloud.relaxationWork(), sumOp<scalar>())
+                    << " J and "
+                    << returnReduce
+                       (
+                           cloud.relaxationImpulse(), sumOp<vector>()
+                       )
+                    << " kg m/s" << nl;
+            }
+            Info<< endl;
+        }
+        relaxed_ = relaxes;
     }
 }
 
@@ -260,6 +346,41 @@ void Foam::mpm::materialPointSystem::findFieldControls()
 }
 
 
+void Foam::mpm::materialPointSystem::addWriteInterval
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    const scalar interval = readPositive(dict, keyword, dimTime);
+
+    // Names of times at the end of a first step of deltaT
+    const dictionary& control = time_.controlDict();
+    const scalar deltaT = control.lookupOrDefault<scalar>("deltaT", 0);
+    const scalar remaining = time_.endTime().value() - time_.value();
+    const scalar later =
+        time_.value() + max(scalar(0), min(deltaT, remaining));
+    const label digits = control.lookupOrDefault<label>("timePrecision", 6);
+    const word format(control.lookupOrDefault<word>("timeFormat", "general"));
+    const scalar leading =
+        format == "fixed" || later <= 0 ? 0 : std::floor(std::log10(later));
+    const scalar resolution =
+        std::pow(10.0, leading - digits + (format == "general"));
+
+    if (interval < resolution)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " is " << interval << " s, less than"
+            << " the names of times tell apart (" << resolution << " s at "
+            << later << " s, timePrecision " << digits << ")." << nl
+            << "    Allowed: " << keyword << " >= " << resolution
+            << ", or a larger timePrecision in controlDict"
+            << exit(FatalIOError);
+    }
+    writeIntervals_.append(interval);
+}
+
+
 void Foam::mpm::materialPointSystem::findWriteIntervals()
 {
     const dictionary& dict = time_.controlDict();
@@ -270,7 +391,7 @@ void Foam::mpm::materialPointSystem::findWriteIntervals()
      == "adjustableRunTime"
     )
     {
-        writeIntervals_.append(readPositive(dict, "writeInterval", dimTime));
+        addWriteInterval(dict, "writeInterval");
     }
     if (const dictionary* functions = dict.findDict("functions"))
     {
@@ -285,10 +406,7 @@ void Foam::mpm::materialPointSystem::findWriteIntervals()
                 );
                 if (control == "adjustable" || control == "adjustableRunTime")
                 {
-                    writeIntervals_.append
-                    (
-                        readPositive(e.dict(), prefix + "Interval", dimTime)
-                    );
+                    addWriteInterval(e.dict(), prefix + "Interval");
                 }
             }
         }
@@ -301,7 +419,10 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime()
     // What counts as the same time, in intervals
     const scalar same = 1e-6;
 
-    scalar next = GREAT;
+    // The relaxation ends with a step, too
+    scalar next =
+        time_.value() < settings_.relaxationUntil
+      ? settings_.relaxationUntil : GREAT;
     forAll(writeIntervals_, i)
     {
         const scalar interval = writeIntervals_[i];
@@ -321,13 +442,28 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime()
 
         // As a restart reads it from the name of the directory; that may be
         // short of a multiple (a third of a second), which is then passed
-        scalar count = std::floor((time_.value() - base)/interval + same);
-        do
+        // Several multiples may share a name: names do not decrease with the
+        // count, so that the first later one is found by halving
+        auto name = [&](const scalar count)
         {
-            ++count;
-            named = readScalar(Time::timeName(base + count*interval));
+            return readScalar(Time::timeName(base + count*interval));
+        };
+        scalar passed = std::floor((time_.value() - base)/interval + same);
+        const scalar one = max(scalar(1), 1e-15*passed);
+        scalar ahead = passed + one;
+        while ((named = name(ahead)) <= time_.value())
+        {
+            const scalar step = 2*(ahead - passed);
+            passed = ahead;
+            ahead += step;
         }
-        while (named <= time_.value());
+        while (ahead - passed > one)
+        {
+            const scalar middle = std::floor(0.5*(passed + ahead));
+            if (name(middle) <= time_.value()) passed = middle;
+            else ahead = middle;
+        }
+        named = name(ahead);
         next = min(next, named);
     }
     return next;
@@ -406,6 +542,8 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     grid_(mesh, control_),
     water_(nullptr),
     soil_(nullptr),
+    forced_(false),
+    relaxed_(false),
     limiter_("none"),
     flowSpeed_(0),
     firstStep_(0),
@@ -419,6 +557,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     readSettings();
     readGravity();
     makeClouds();
+    readForces();
     findFieldControls();
     findWriteIntervals();
     writeTimes_.setSize(writeIntervals_.size(), -GREAT);
@@ -503,6 +642,20 @@ void Foam::mpm::materialPointSystem::reportEffects() const
     {
         row("coupling", "off", "one cloud");
     }
+    row
+    (
+        "body forces",
+        forced_ ? "on" : "off",
+        forced_ ? "beside gravity of constant/g" : "gravity alone"
+    );
+    row
+    (
+        "relaxation",
+        settings_.relaxationDamping > 0 ? "on" : "off",
+        settings_.relaxationDamping > 0
+      ? "until " + Foam::name(settings_.relaxationUntil) + " s"
+      : "fvSolution/MPM/relaxation"
+    );
     row
     (
         "time step",
@@ -600,11 +753,12 @@ void Foam::mpm::materialPointSystem::advance(Time& runTime)
 }
 
 
-void Foam::mpm::materialPointSystem::stop(Time& runTime)
+void Foam::mpm::materialPointSystem::stop(Time& runTime, const string& reason)
 {
     if (stopped_) return;
 
-    Info<< "SIGTERM: writing a restart and ending the run" << nl << endl;
+    Info<< reason.c_str() << ": writing a restart and ending the run" << nl
+        << endl;
     runTime.stopAt(Time::stopAtControls::saWriteNow);
     stopped_ = true;
 }
@@ -627,6 +781,8 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
 void Foam::mpm::materialPointSystem::updateStress()
 {
     const scalar deltaT = time_.deltaTValue();
+
+    setForces(deltaT);
 
     // The pressure of the water acts on soil points, too
     if (water_) water_->updateStress(deltaT);
@@ -655,6 +811,12 @@ void Foam::mpm::materialPointSystem::gridToParticles()
     {
         pointSteps_ += cloud.size();
         cloud.gridToParticles(deltaT);
+        if (forced_ && cloud.energyBalance())
+        {
+            cost_.start("work of body forces");
+            cloud.addForceWork(deltaT);
+            cost_.stop();
+        }
     }
 }
 

@@ -206,6 +206,16 @@ Foam::mpm::materialPointCloud::materialPointCloud
     energyBalance_(control.energyBalance.found(name)),
     cost_(cost),
     g_(g),
+    bodyForce_
+    (
+        vectorInTime::New(dict, "bodyForce", dimAcceleration, grid.cells())
+    ),
+    forced_(bodyForce_.valid() || control.gravityInTime),
+    acceleration_(g),
+    damping_(0),
+    forceWork_(0),
+    relaxationWork_(0),
+    relaxationImpulse_(Zero),
     points_(grid.nDim()),
     x_(points_.add("x", pointStorage::vectorValue)),
     v_(points_.add("U", pointStorage::vectorValue)),
@@ -490,6 +500,10 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         [](const departure& a, const departure& b) { return a.point > b.point; }
     );
 
+    // What moves to another rank and leaves there in the same step may be the
+    // fastest of all: it must not be counted here any more
+    const bool byRegion = open_.valid() && open_->anyRegion();
+
     const label nColumns = points_.nColumns();
     List<DynamicList<scalar>> outgoing(Pstream::nProcs());
     List<scalar> buffer(nColumns);
@@ -502,6 +516,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         }
         else
         {
+            extremeLeft_ = extremeLeft_ || (byRegion && extreme(d.point));
             points_.pack(d.point, buffer.data());
             outgoing[d.rank].append(buffer);
             points_.remove(d.point);
@@ -532,6 +547,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
                 const label p = points_.size() - 1;
                 setCell(p, boxCoordinate(p));
                 inactive = inactive || !order_.active(points_.cell()[p]);
+                extremeLeft_ = extremeLeft_ || (byRegion && extreme(p));
             }
         }
     }
@@ -800,6 +816,21 @@ void Foam::mpm::materialPointCloud::energy
         }
         kinetic += 0.5*mass()[p]*vv;
         potential -= mass()[p]*gx;
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::addForceWork(const scalar deltaT)
+{
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        const label axis = grid_.cells().axis(d);
+        const scalar force = acceleration_[axis] - g_[axis];
+        if (force == 0) continue;
+
+        scalar momentum = 0;
+        for (label p = 0; p < size(); ++p) momentum += mass()[p]*v(d)[p];
+        forceWork_ += deltaT*force*momentum;
     }
 }
 

@@ -343,6 +343,14 @@ void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
     counters_.wallContacts =
         Pstream::master() ? dict.lookupOrDefault<label>("wallContacts", 0) : 0;
 
+    if (Pstream::master())
+    {
+        forceWork_ = dict.lookupOrDefault<scalar>("forceWork", 0);
+        relaxationWork_ = dict.lookupOrDefault<scalar>("relaxationWork", 0);
+        relaxationImpulse_ =
+            dict.lookupOrDefault<vector>("relaxationImpulse", Zero);
+    }
+
     if (open_.valid()) open_->read(dict);
 }
 
@@ -357,6 +365,22 @@ void Foam::mpm::materialPointCloud::writeState(dictionary& dict) const
         "wallContacts",
         returnReduce(counters_.wallContacts, sumOp<label>())
     );
+    if (forced_)
+    {
+        dict.set("forceWork", returnReduce(forceWork_, sumOp<scalar>()));
+    }
+    if (relaxes())
+    {
+        dict.set
+        (
+            "relaxationWork", returnReduce(relaxationWork_, sumOp<scalar>())
+        );
+        dict.set
+        (
+            "relaxationImpulse",
+            returnReduce(relaxationImpulse_, sumOp<vector>())
+        );
+    }
     if (open_.valid() && open_->started()) open_->write(dict);
 }
 

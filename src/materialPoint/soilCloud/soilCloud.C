@@ -203,6 +203,7 @@ void Foam::mpm::soilCloud::checkDictionary
             "apicRate",
             "flipDampingRate",
             "corners",
+            "bodyForce",
             "inflowOutflow"
         },
         strictKeywords

@@ -55,7 +55,7 @@ class soilKernelsFor
         {
             m.compressionGradient[d] =
                 smooth ? c.points_.column(c.compressionGradient_ + d) : nullptr;
-            m.gravity[d] = c.g_[c.grid_.cells().axis(d)];
+            m.gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
         }
         return m;
     }
@@ -216,6 +216,7 @@ public:
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }
+        this->relax(deltaT);
         c.cost_.stop();
     }
 

@@ -364,6 +364,8 @@ void Foam::mpm::waterCloud::checkDictionary
             "flipDampingRate",
             "corners",
             "tensionCutOff",
+            "bodyForce",
+            "pressureGradient",
             "inflowOutflow"
         },
         strictKeywords

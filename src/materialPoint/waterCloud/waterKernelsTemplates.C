@@ -57,7 +57,7 @@ class waterKernelsFor
         for (int d = 0; d < dim; ++d)
         {
             m.gradJ[d] = smoothing ? c.points_.column(c.gradJ_ + d) : nullptr;
-            m.gravity[d] = c.g_[c.grid_.cells().axis(d)];
+            m.gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
             m.reach[d] = 0.5*Shape::width*c.grid_.cells().spacing(d);
         }
         return m;
@@ -317,6 +317,7 @@ public:
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }
+        this->relax(deltaT);
         c.cost_.stop();
     }
 

@@ -5,9 +5,9 @@ License
 
 #include "inlet.H"
 #include "dictionaryEntries.H"
+#include "timeFunction.H"
 #include "FlatOutput.H"
 #include "TableBase.H"
-#include "Constant.H"
 #include "SubField.H"
 #include "volFields.H"
 
@@ -21,50 +21,6 @@ using namespace Foam;
 //- Part of a velocity or a cell that is put down to rounding
 const scalar rounding = 1e-6;
 
-
-//- A function of time. A constant may carry its dimensions.
-template<class Type>
-autoPtr<Function1<Type>> readFunction
-(
-    const dictionary& dict,
-    const word& keyword,
-    const dimensionSet& dims
-)
-{
-    const entry& e = dict.lookupEntry(keyword, keyType::LITERAL);
-    if (!e.isDict())
-    {
-        ITstream& is = e.stream();
-        is.rewind();
-        token t(is);
-        is.putBack(t);
-
-        const bool dimensioned =
-            t.isPunctuation() && t.pToken() == token::BEGIN_SQR;
-        if (dimensioned)
-        {
-            const dimensionSet given(is);
-            if (given != dims)
-            {
-                FatalIOErrorInFunction(dict)
-                    << "keyword " << keyword << " has the dimensions " << given
-                    << '.' << nl << "    Allowed: " << dims << " or none"
-                    << exit(FatalIOError);
-            }
-        }
-        if (!t.isWord())
-        {
-            const Type value = pTraits<Type>(is);
-            is.rewind();
-            return autoPtr<Function1<Type>>
-            (
-                new Function1Types::Constant<Type>(keyword, value)
-            );
-        }
-        is.rewind();
-    }
-    return Function1<Type>::New(keyword, dict);
-}
 
 } // End anonymous namespace
 
@@ -95,11 +51,11 @@ void Foam::mpm::inlet::readFlow()
     }
     if (dict_.found("velocity"))
     {
-        velocity_ = readFunction<vector>(dict_, "velocity", dimVelocity);
+        velocity_ = readTimeFunction<vector>(dict_, "velocity", dimVelocity);
     }
     else
     {
-        discharge_ = readFunction<scalar>(dict_, "discharge", dimArea/dimTime);
+        discharge_ = readTimeFunction<scalar>(dict_, "discharge", dimArea/dimTime);
     }
 }
 
