@@ -1,6 +1,8 @@
 """Shear stress on a bed from known profiles of velocity, against the criteria
 for erosion, and beside soil that moves."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -189,6 +191,48 @@ def testViscous(tmp_path, figures):
                        np.abs(tau/(0.1*slope) - 1).max(), 1e-8)
     figures.equal("exceeded", [found["ShieldsExceeded"][k] for k in (4, 15)],
                   [0, 1])
+
+
+@pytest.mark.parametrize("law, needed", [("logLaw", 1), ("viscous", 2)])
+def testThinWater(tmp_path, figures, law, needed):
+    """Thinner than the heights: from the highest cells that there are"""
+    if law == "logLaw":
+        setup = flow(logProfile, [0.05], heights="(0.2 0.4)")
+        exact = RHO*0.05**2
+    else:
+        setup = flow(lambda z, slope: slope*z, [5], shearStress="viscous",
+                     criteria="(Shields)", heights="(0.2 0.4)")
+        setup.fluid["mu"] = 0.1
+        exact = 0.5
+    case = setup.steps(1).write(tmp_path/"case").prepare()
+    case.solve()
+    found = atStart(case)
+    middle = slice(4, 6)
+    figures.atMost("shear stress: relative error", np.abs(
+        found["shearStress"][middle]/exact - 1).max(), 0.03)
+    # Cells above 1.5 cells, up to the surface
+    z = (np.arange(1, 12) + 0.5)*H
+    figures.atMost("height of the velocities, error over h", np.abs(
+        found["velocityHeight"][middle] - z.mean()).max()/H, 0.6)
+    head = next((case.path/"postProcessing"/"erosion").rglob(
+        "erosionCriteria.dat")).read_text()
+    figures.holds("the header says what is done",
+                  "from the highest cells that are full" in head)
+    figures.holds("the header says when none is left", re.search(
+        rf"none left: fewer than {['', 'one', 'two'][needed]} full cell",
+        head))
+
+
+def testWaterThinnerThanCells(tmp_path, figures):
+    """Half a cell of water over the bed: no number"""
+    setup = flow(logProfile, [0.05], heights="(0.2 0.4)")
+    setup.regions = {"pores": box((0, 0), (0.1, BED)),
+                     "film": box((0, BED), (0.1, BED + 0.34*H))}
+    case = setup.steps(1).write(tmp_path/"case").prepare()
+    case.solve()
+    found = atStart(case)
+    figures.holds("no stress", np.isnan(found["shearStress"]).all())
+    figures.holds("no height", np.isnan(found["velocityHeight"]).all())
 
 
 def testTwoRanks(tmp_path, figures, turbulent):

@@ -23,6 +23,7 @@ Description
 #include "fvMesh.H"
 #include "sigFpe.H"
 #include "PstreamReduceOps.H"
+#include "caseLock.H"
 #include "materialPointSystem.H"
 #include "endSignals.H"
 
@@ -43,6 +44,7 @@ int main(int argc, char *argv[])
     // values are looked for after each step instead
     sigFpe::unset(false);
 
+    const mpm::caseLock lock(args);
     mpm::materialPointSystem::setIncompleteTimesAside(args);
 
     #include "createTime.H"
@@ -63,6 +65,8 @@ int main(int argc, char *argv[])
     points.reportEffects();
 
     const mpm::endSignals signals;
+
+    points.startDeltaT(runTime);
 
     Info<< "Starting time loop\n" << endl;
 

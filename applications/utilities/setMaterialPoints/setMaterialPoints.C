@@ -14,8 +14,10 @@ Description
 
     Soil may be \c geostatic, with the vertical effective stress of the soil
     above it (buoyant where \c saturated) and K0 times that to the sides, or
-    start with a \c uniform effective stress. Water points inside a soil
-    region fill its pores.
+    start with a \c uniform effective stress. Where gravity is inclined, and
+    the soil reaches from end to end of the mesh with a surface along it, \c
+    geostatic is the equilibrium of an endless slope; the log says what was
+    assumed. Water points inside a soil region fill its pores.
 
     Regions are half open, to a millionth of a cell: a point on the face that
     two of them share belongs to the upper one.
@@ -99,10 +101,13 @@ Usage
 #include "IOdictionary.H"
 #include "PstreamReduceOps.H"
 #include "sigFpe.H"
-#include "FlatOutput.H"
+#include "unitConversion.H"
+#include "listed.H"
 #include "dictionaryEntries.H"
 #include "columnDecomposition.H"
+#include "caseLock.H"
 #include "labelIOList.H"
+#include "localIOdictionary.H"
 #include "materialPointSystem.H"
 #include "cellZoneRegion.H"
 #include "pointRegion.H"
@@ -368,42 +373,37 @@ static std::vector<placedRegion> place
     std::vector<placedRegion> regions;
     labelHashSet taken;
 
-    for (const entry& e : dict.subDict("regions"))
+    const dictionary& all = mpm::subDictOf(dict, "regions");
+    for (const word& name : all.toc())
     {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(dict.subDict("regions"))
-                << "entry " << e.keyword() << " is not a dictionary." << nl
-                << "    Allowed: <name> { type box; ... }"
-                << exit(FatalIOError);
-        }
+        const dictionary& entries = mpm::subDictOf(all, name);
         for (const word& keyword : foreign)
         {
-            if (e.dict().found(keyword))
+            if (entries.found(keyword))
             {
-                FatalIOErrorInFunction(e.dict())
+                FatalIOErrorInFunction(entries)
                     << "keyword " << keyword << " has no meaning for the cloud "
                     << cloud.name() << '.' << nl
-                    << "    Allowed: regions without " << flatOutput(foreign)
+                    << "    Allowed: regions without " << mpm::listed(foreign)
                     << exit(FatalIOError);
             }
         }
         autoPtr<mpm::pointRegion> region
         (
-            mpm::pointRegion::New(mesh, e.dict(), strict)
+            mpm::pointRegion::New(mesh, entries, strict)
         );
         const regionPoints filled(fill(cloud.grid(), *region, dict, taken));
 
         const label n = returnReduce(filled.position.size(), sumOp<label>());
         if (!n)
         {
-            FatalIOErrorInFunction(e.dict())
-                << "region " << e.keyword() << " holds no points." << nl
+            FatalIOErrorInFunction(entries)
+                << "region " << name << " holds no points." << nl
                 << "    It spans " << region->bounds() << ", the mesh "
                 << mesh.bounds() << exit(FatalIOError);
         }
         const scalar outside = 100*shareOutside(cloud.grid(), *region);
-        Info<< "Cloud " << cloud.name() << ", region " << e.keyword() << ": "
+        Info<< "Cloud " << cloud.name() << ", region " << name << ": "
             << n << " points";
         if (outside > 1e-6)
         {
@@ -424,22 +424,31 @@ static std::vector<placedRegion> place
                /dict.get<label>("pointsPerDirection");
         }
         const scalar level =
-            e.dict().lookupOrDefault<scalar>("level", top + half);
+            entries.lookupOrDefault<scalar>("level", top + half);
 
         const vector velocity
         (
-            e.dict().lookupOrDefault<vector>("velocity", Zero)
+            entries.lookupOrDefault<vector>("velocity", Zero)
         );
         const tensor gradient
         (
-            e.dict().lookupOrDefault<tensor>("velocityGradient", Zero)
+            entries.lookupOrDefault<tensor>("velocityGradient", Zero)
         );
-        const point centre(e.dict().lookupOrDefault<point>("centre", Zero));
+        const point centre(entries.lookupOrDefault<point>("centre", Zero));
 
+        const scalar fastest = mpm::maxFlowSpeed;
         vectorField v(filled.position.size());
         forAll(v, i)
         {
             v[i] = velocity + (gradient & (filled.position[i] - centre));
+            if (mag(v[i]) <= fastest) continue;
+
+            FatalIOErrorInFunction(entries)
+                << "keyword velocity of region " << name << " is " << velocity
+                << ", with velocityGradient " << v[i] << " m/s at "
+                << filled.position[i] << '.' << nl << "    Allowed: up to "
+                << fastest << " m/s, the speed of sound of water"
+                << exit(FatalIOError);
         }
         const label first =
             cloud.addPoints(filled.position, filled.cell, filled.id, v);
@@ -447,7 +456,7 @@ static std::vector<placedRegion> place
         (
             placedRegion
             {
-                e.dict(), std::move(region), first, cloud.size(), level
+                entries, std::move(region), first, cloud.size(), level
             }
         );
     }
@@ -531,6 +540,89 @@ static void checkStiffness
 }
 
 
+//- State fields of a point of soil with the void ratio and effective stress
+//  that it starts with; an error of the model if it cannot
+static scalarField startState
+(
+    const mpm::soilCloud& soil,
+    scalar voidRatio,
+    const symmTensor& stress
+)
+{
+    const label nDim = soil.grid().nDim();
+    const label nStress = (nDim == 2 ? 4 : 6);
+
+    scalarField state(soil.model().stateFields().size(), Zero);
+    scalarField values(nStress), whole(nStress);
+    mpm::soilPoints point;
+    point.n = 1;
+    point.voidRatio = &voidRatio;
+    for (label k = 0; k < nStress; ++k)
+    {
+        // xx yy zz xy yz zx of the mesh's directions
+        const mpm::lattice& cells = soil.grid().cells();
+        values[k] = tensor(stress)
+        (
+            cells.axis(k < 3 ? k : k - 3), cells.axis(k < 3 ? k : (k - 2) % 3)
+        );
+        point.stress[k] = &values[k];
+        point.wholeStress[k] = &whole[k];
+    }
+    forAll(state, i) point.state[i] = &state[i];
+    soil.model().initialise(nDim, point);
+    return state;
+}
+
+
+//- Say where a region of soil is not what it was probably meant to be
+static void checkSoilRegion(const mpm::soilCloud& soil, const placedRegion& r)
+{
+    mpm::warnUnusual
+    (
+        r.dict,
+        {
+            {"voidRatio", 0.2, GREAT, "packings of grains"},
+            {"K0", 0.2, 3, "soils"}
+        }
+    );
+
+    // Nothing but honeycombs of fine or flat grains stands so loose
+    const scalar loosest = 0.5;
+    const scalar e = voidRatioOf(soil, r.dict);
+    const wordList fields(soil.model().stateFields());
+    const label regime = fields.find("regime");
+    if (regime < 0 || 1/(1 + e) >= loosest) return;
+
+    if (label(startState(soil, e, Zero)[regime]) != mpm::soilModel::suspended)
+    {
+        IOWarningInFunction(r.dict)
+            << "region " << r.dict.dictName() << " has the solid fraction "
+            << 1/(1 + e) << " (void ratio " << e
+            << "): its grains touch and carry, and do not settle." << nl
+            << "    Usual: for a suspension, less than nsC of the model; for a"
+            << " packing, more than " << loosest << " (void ratio < "
+            << 1/loosest - 1 << ')' << nl << endl;
+    }
+}
+
+
+//- Is a place in one of some regions
+static bool inside
+(
+    const mpm::lattice& cells,
+    const std::vector<placedRegion>& regions,
+    const point& x,
+    const label celli
+)
+{
+    for (const placedRegion& r : regions)
+    {
+        if (holds(cells, *r.region, x, celli)) return true;
+    }
+    return false;
+}
+
+
 //- Mass and pressure of the water; inside soil it fills the pores only
 static void setWaterState
 (
@@ -554,6 +646,15 @@ static void setWaterState
         surface, landing, soil && !soil->model().held() ? soil : nullptr
     );
 
+    scalar top = -GREAT, bottom = GREAT;
+    for (const point& x : water.grid().mesh().points())
+    {
+        top = max(top, up & x);
+        bottom = min(bottom, up & x);
+    }
+    reduce(top, maxOp<scalar>());
+    reduce(bottom, minOp<scalar>());
+
     for (const placedRegion& r : regions)
     {
         const bool hydrostatic =
@@ -562,10 +663,42 @@ static void setWaterState
                 r.dict, "pressure", "uniform", {"uniform", "hydrostatic"}
             ) == "hydrostatic";
 
-        scalarField p
-        (
-            r.last - r.first, r.dict.lookupOrDefault<scalar>("p", 0)
-        );
+        // Below the noise of the pressure then, which is some thousandths
+        const scalar highest = top + 100*(top - bottom);
+        if (hydrostatic && !(r.level <= highest))
+        {
+            FatalIOErrorInFunction(r.dict)
+                << "keyword level of region " << r.dict.dictName() << " is "
+                << r.level << ", more than 100 times the height of the mesh"
+                << " above it: nothing is left of the differences of pressure"
+                << " inside." << nl << "    Allowed: level <= " << highest
+                << ", or pressure uniform" << exit(FatalIOError);
+        }
+        if (hydrostatic && r.level > top + (top - bottom))
+        {
+            IOWarningInFunction(r.dict)
+                << "keyword level of region " << r.dict.dictName() << " is "
+                << r.level << ", far above the mesh, which ends at " << top
+                << '.' << nl << "    The water starts under the pressure of "
+                << r.level - top << " m of water on top" << nl
+                << endl;
+        }
+
+        // Of no density and of the double
+        const scalar least = water.fluid().pressure(scalar(GREAT));
+        const scalar most = water.fluid().pressure(scalar(0.5));
+        const scalar uniform = r.dict.lookupOrDefault<scalar>("p", 0);
+        if (!(uniform > least && uniform < most))
+        {
+            FatalIOErrorInFunction(r.dict)
+                << "keyword p of region " << r.dict.dictName() << " is "
+                << uniform << " Pa, which the equation of state has not with"
+                << " the speed of sound " << water.fluid().soundSpeed()
+                << " m/s." << nl << "    Allowed: "
+                << least << " < p < " << most << ", or a larger soundSpeed"
+                << exit(FatalIOError);
+        }
+        scalarField p(r.last - r.first, uniform);
         scalarField V(r.last - r.first, volume);
         forAll(p, i)
         {
@@ -617,9 +750,20 @@ static scalar effectiveWeight
 }
 
 
-//- Weight of the soil above a position per area [Pa], met on the way up
-//  through all regions in steps of the given length
-static scalar overburden
+//- The soil above a place
+struct cover
+{
+    //- Weight per area [Pa]
+    scalar weight;
+
+    //- Where it ends, along the direction upwards [m]
+    scalar top;
+};
+
+
+//- The soil above a position, met on the way up through all regions in steps
+//  of the given length
+static cover soilAbove
 (
     const mpm::backgroundGrid& grid,
     const point& x,
@@ -630,7 +774,7 @@ static scalar overburden
     const UList<scalar>& weights
 )
 {
-    scalar pressure = 0;
+    cover above{0, up & x};
     for (point y = x + 0.5*step*up; domain.contains(y); y += step*up)
     {
         const label celli = cellAt(grid, y);
@@ -638,12 +782,252 @@ static scalar overburden
         {
             if (holds(grid.cells(), *regions[i].region, y, celli))
             {
-                pressure += weights[i]*step;
+                above.weight += weights[i]*step;
+                above.top = (up & y) + 0.5*step;
                 break;
             }
         }
     }
-    return pressure;
+    return above;
+}
+
+
+//- Effective stress over the vertical one of grains at rest below level ground
+static symmTensor levelStress(const vector& up, const scalar K0)
+{
+    return -(sqr(up) + K0*(symmTensor::I - sqr(up)));
+}
+
+
+//- Effective stress over the weight above, along the normal of an endless
+//  slope: what is above a plane along the slope is carried by the normal and
+//  the shear stress on it. Along the slope the grains press as at rest, or as
+//  hard as a steep slope needs to stand: their mobilised friction is that of
+//  K0 or that of the slope (the circle of Mohr, with t the shear over the
+//  normal stress: (1 - K)^2 + 4 t^2 = m^2 (1 + K)^2).
+static symmTensor slopeStress
+(
+    const vector& up,
+    const vector& normal,
+    const scalar K0
+)
+{
+    const scalar cosine = up & normal;
+    const vector along(up - cosine*normal);
+    const scalar t = mag(along)/cosine;
+    const scalar m = max(mag(1 - K0)/(1 + K0), mag(along));
+    const scalar root =
+        2*std::sqrt(max(scalar(0), sqr(m) - sqr(t)*(1 - sqr(m))));
+    const scalar K =
+        K0 > 1
+      ? (1 + sqr(m) + root)/(1 - sqr(m))
+      : (1 - sqr(m) + 4*sqr(t))/(1 + sqr(m) + root);
+
+    return
+       -cosine*(sqr(normal) + K*(symmTensor::I - sqr(normal)))
+      - twoSymm(normal*along);
+}
+
+
+//- Why the model cannot carry a stress; empty if it can
+static string refusal
+(
+    const mpm::soilCloud& soil,
+    const scalar voidRatio,
+    const symmTensor& stress
+)
+{
+    const bool throwing = FatalIOError.throwExceptions(true);
+    string reason;
+    try
+    {
+        startState(soil, voidRatio, stress);
+    }
+    catch (const IOerror& e)
+    {
+        reason = e.message();
+    }
+    FatalIOError.throwExceptions(throwing);
+    return reason;
+}
+
+
+//- Geostatic stress of the points of a region whose surface is to be found
+static symmTensorField geostaticStress
+(
+    const mpm::soilCloud& soil,
+    const std::vector<placedRegion>& regions,
+    const label regioni,
+    const scalarList& weights,
+    const vector& up,
+    const scalar K0,
+    const label nPoints,
+    const boundBox& domain
+)
+{
+    const mpm::lattice& cells = soil.grid().cells();
+    const placedRegion& r = regions[regioni];
+    const label n = r.last - r.first;
+
+    // The axis nearest to the vertical
+    vector normal(Zero);
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        vector axis(Zero);
+        axis[cells.axis(d)] = sign(up[cells.axis(d)]);
+        if ((axis & up) > (normal & up)) normal = axis;
+    }
+    const scalar angle = std::acos(min(scalar(1), normal & up));
+    const bool inclined = angle > 1e-3;
+
+    // Does the region reach from end to end of the mesh along the slope
+    bool endless = true;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        const label a = cells.axis(d);
+        if (normal[a] != 0 || mag(up[a]) <= 1e-3) continue;
+
+        scalar first = GREAT, last = -GREAT;
+        for (label p = r.first; p < r.last; ++p)
+        {
+            const scalar x = soil.position(p)[a];
+            first = min(first, x);
+            last = max(last, x);
+        }
+        reduce(first, minOp<scalar>());
+        reduce(last, maxOp<scalar>());
+        endless = endless
+         && first < domain.min()[a] + cells.spacing(d)
+         && last > domain.max()[a] - cells.spacing(d);
+    }
+
+    // Whole steps from the point of a regular bed to a face of its cell
+    auto stepAlong = [&](const vector& direction)
+    {
+        scalar step = GREAT;
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            const scalar part = mag(direction[cells.axis(d)]);
+            if (part > SMALL) step = min(step, cells.spacing(d)/part);
+        }
+        return step/(8*nPoints);
+    };
+
+    scalarField weight(n);
+    scalar highest = -GREAT, lowest = GREAT;
+    auto findCover = [&](const vector& direction)
+    {
+        const scalar step = stepAlong(direction);
+        highest = -GREAT;
+        lowest = GREAT;
+        forAll(weight, i)
+        {
+            const cover above = soilAbove
+            (
+                soil.grid(), soil.position(r.first + i), direction, step,
+                domain, regions, weights
+            );
+            weight[i] = above.weight;
+            highest = max(highest, above.top);
+            lowest = min(lowest, above.top);
+        }
+        reduce(highest, maxOp<scalar>());
+        reduce(lowest, minOp<scalar>());
+
+        // To half of the distance of points
+        return highest - lowest < 4.5*step;
+    };
+
+    const char* shear = "no shear stress, horizontal stress K0 times the weight"
+        " of what is above";
+    Info<< "    stress geostatic: ";
+    const bool along = inclined && findCover(normal);
+    if (along && endless)
+    {
+        const symmTensor stress(slopeStress(up, normal, K0));
+        const scalar e = voidRatioOf(soil, r.dict);
+        const scalar most = returnReduce(max(weight), maxOp<scalar>());
+        if (refusal(soil, e, most*stress).empty())
+        {
+            Info<< "equilibrium of an endless slope of " << radToDeg(angle)
+                << " degrees along the mesh" << endl;
+            return weight*stress;
+        }
+        Info<< "--> a slope of " << radToDeg(angle) << " degrees along the mesh"
+            << " is steeper than the soil stands;";
+    }
+    else if (inclined)
+    {
+        Info<< "--> gravity is inclined by " << radToDeg(angle)
+            << " degrees, and the soil "
+            << (along ? "ends within the mesh;" : "has no surface along it;");
+    }
+
+    const bool level = findCover(up);
+    if (!inclined && level)
+    {
+        Info<< "level ground" << endl;
+        return weight*levelStress(up, K0);
+    }
+    if (!inclined)
+    {
+        Info<< "--> the surface of the soil above is between " << lowest
+            << " and " << highest << " m;";
+    }
+    Info<< nl << "        assumed as below level ground: " << shear << "." << nl
+        << "        The soil moves until it has found its equilibrium" << endl;
+    return weight*levelStress(up, K0);
+}
+
+
+//- Say where soil lies under water but holds none
+static void checkPoreWater
+(
+    const mpm::soilCloud& soil,
+    const placedRegion& r,
+    const std::vector<placedRegion>& inWater,
+    const vector& up,
+    const boundBox& domain
+)
+{
+    // By default what is in a case with water is wet
+    if (!mpm::readSwitchOrDefault(r.dict, "saturated", true)) return;
+
+    const mpm::backgroundGrid& grid = soil.grid();
+    const mpm::lattice& cells = grid.cells();
+    const vector step(cells.minSpacing()*up);
+    label nDry = 0, nUnder = 0;
+    for (label p = r.first; p < r.last; ++p)
+    {
+        const point x(soil.position(p));
+        const label celli = grid.meshCell(soil.points().cell()[p]);
+        if (inside(cells, inWater, x, celli)) continue;
+
+        ++nDry;
+        bool under = false;
+        for (point y = x + step; !under && domain.contains(y); y += step)
+        {
+            under = inside(cells, inWater, y, cellAt(grid, y));
+        }
+        nUnder += under;
+    }
+    reduce(nDry, sumOp<label>());
+    reduce(nUnder, sumOp<label>());
+    const label n = returnReduce(r.last - r.first, sumOp<label>());
+
+    const bool buoyant =
+        r.dict.lookupOrDefault<word>("stress", "none") == "geostatic";
+    if (nUnder || (nDry && buoyant))
+    {
+        OSstream& os = IOWarningInFunction(r.dict);
+        os  << "region " << r.dict.dictName() << ": " << nDry << " of " << n
+            << " points of soil hold no water in their pores"
+            << (buoyant ? ", but are as light as under water" : "");
+        if (nUnder) os << ", and " << nUnder << " of them lie under water";
+        os  << '.' << nl << "    Allowed: a region of the cloud water over the"
+            << " soil as well, or saturated no; for soil that starts dry"
+            << nl << endl;
+    }
 }
 
 
@@ -655,20 +1039,13 @@ static void setSoilState
     const dictionary& cloudDict,
     const vector& up,
     const scalar g,
-    const mpm::waterCloud* water
+    const mpm::waterCloud* water,
+    const std::vector<placedRegion>& inWater
 )
 {
     const mpm::lattice& cells = soil.grid().cells();
     const scalar volume = pointVolume(cells, cloudDict);
-
-    // Whole steps from the point of a regular bed to a face of its cell
-    scalar step = GREAT;
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        const scalar along = mag(up[cells.axis(d)]);
-        if (along > SMALL) step = min(step, cells.spacing(d)/along);
-    }
-    step /= 8*cloudDict.get<label>("pointsPerDirection");
+    const label nPoints = cloudDict.get<label>("pointsPerDirection");
 
     // Of the whole case: what lies above may be on another rank
     boundBox domain(soil.grid().mesh().points(), true);
@@ -702,18 +1079,36 @@ static void setSoilState
         (
             r.dict, "K0", dimless, soil.model().K0(), 0, GREAT, true
         );
+        checkSoilRegion(soil, r);
+        if (water && g > 0) checkPoreWater(soil, r, inWater, up, domain);
 
         symmTensorField sigma(n, Zero);
         if (stress == "uniform")
         {
-            sigma = r.dict.get<symmTensor>("sigma");
+            const symmTensor given(r.dict.get<symmTensor>("sigma"));
+            const string reason(refusal(soil, e, given));
+            if (!reason.empty())
+            {
+                FatalIOErrorInFunction(r.dict)
+                    << "keyword sigma of region " << r.dict.dictName() << " is "
+                    << given << '.' << nl << "    " << reason.c_str()
+                    << exit(FatalIOError);
+            }
+            sigma = given;
         }
-        else if (stress == "geostatic")
+        else if (stress == "geostatic" && g > 0)
         {
-            const symmTensor direction =
-                sqr(up) + K0*(symmTensor::I - sqr(up));
-
-            const bool flat = g == 0 || r.dict.found("level");
+            if (weights[regioni] <= 0)
+            {
+                FatalIOErrorInFunction(r.dict)
+                    << "keyword stress of region " << r.dict.dictName()
+                    << " is geostatic, but the grains are lighter than the"
+                    << " water: rhoS " << soil.model().rhoS() << ", rho0 "
+                    << water->fluid().rho0() << " kg/m3." << nl
+                    << "    Allowed: none, uniform, or heavier grains"
+                    << exit(FatalIOError);
+            }
+            const bool flat = r.dict.found("level");
             if (!flat && Pstream::parRun() && anyZone)
             {
                 FatalIOErrorInFunction(r.dict)
@@ -723,17 +1118,71 @@ static void setSoilState
                     << " setMaterialPoints before decomposePar"
                     << exit(FatalIOError);
             }
-            forAll(sigma, i)
+            if (flat)
             {
-                const point x(soil.position(r.first + i));
-                const scalar pressure =
-                    flat
-                  ? weights[regioni]*max(scalar(0), r.level - (up & x))
-                  : overburden(soil.grid(), x, up, step, domain, regions, weights);
-                sigma[i] = -pressure*direction;
+                const symmTensor direction(levelStress(up, K0));
+                forAll(sigma, i)
+                {
+                    const point x(soil.position(r.first + i));
+                    const scalar depth = max(scalar(0), r.level - (up & x));
+                    sigma[i] = weights[regioni]*depth*direction;
+                }
+            }
+            else
+            {
+                sigma = geostaticStress
+                (
+                    soil, regions, regioni, weights, up, K0, nPoints, domain
+                );
             }
         }
         soil.setState(r.first, scalarField(n, volume), scalarField(n, e), sigma);
+    }
+}
+
+
+//- Say what decomposePar will need: it knows no patch type of ours, and reads
+//  one that it does not know by its value
+static void checkDecomposition(const fvMesh& mesh, const word& cloud)
+{
+    const localIOdictionary file
+    (
+        IOobject
+        (
+            "U." + cloud,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        ),
+        volVectorField::typeName
+    );
+    const dictionary& control = mesh.time().controlDict();
+    if
+    (
+        control.found("libs")
+     && control.lookup("libs").toString().find("mpmBackgroundGrid")
+     != std::string::npos
+    )
+    {
+        return;
+    }
+    for (const entry& e : file.subDict("boundaryField"))
+    {
+        if
+        (
+            e.isDict() && !e.dict().found("value")
+         && e.dict().lookupOrDefault<word>("type", word::null) == "frictional"
+        )
+        {
+            Info<< "--> " << file.objectPath() << ", patch " << e.keyword()
+                << ": decomposePar does not know the type frictional and asks"
+                << " for its value." << nl << "    For it, add"
+                << " libs (\"libmpmBackgroundGrid.so\"); to"
+                << " system/controlDict" << nl << endl;
+            return;
+        }
     }
 }
 
@@ -864,7 +1313,7 @@ static void writeDecomposition
         scalarList ofRank(nRanks, Zero);
         forAll(rank, c) ofRank[rank[c]] += work[k][c];
         Info<< "Cloud " << points.clouds()[k].name() << ": points of the ranks "
-            << flatOutput(ofRank) << nl;
+            << mpm::listed(ofRank) << nl;
     }
     if (!cellRank.write())
     {
@@ -907,6 +1356,12 @@ int main(int argc, char *argv[])
     #include "setRootCase.H"
 
     sigFpe::unset(false);
+
+    autoPtr<mpm::caseLock> lock;
+    if (!args.found("weights") && !args.found("decomposition"))
+    {
+        lock.reset(new mpm::caseLock(args));
+    }
 
     #include "createTime.H"
 
@@ -978,13 +1433,13 @@ int main(int argc, char *argv[])
     {
         inSoil = place
         (
-            *soil, setDict.subDict(soil->name()), mesh, up,
+            *soil, mpm::subDictOf(setDict, soil->name()), mesh, up,
             {"pressure", "p"}, strict
         );
     }
     if (water)
     {
-        const dictionary& dict = setDict.subDict(water->name());
+        const dictionary& dict = mpm::subDictOf(setDict, water->name());
         inWater = place
         (
             *water, dict, mesh, up,
@@ -999,12 +1454,14 @@ int main(int argc, char *argv[])
     {
         setSoilState
         (
-            *soil, inSoil, setDict.subDict(soil->name()), up, g, water
+            *soil, inSoil, mpm::subDictOf(setDict, soil->name()), up, g, water,
+            inWater
         );
     }
 
     for (mpm::materialPointCloud& cloud : points.clouds())
     {
+        if (!Pstream::parRun()) checkDecomposition(mesh, cloud.name());
         cloud.finishPoints();
         Info<< "Cloud " << cloud.name() << ": " << cloud.globalSize()
             << " points, mass " << cloud.globalMass() << " kg" << nl;

@@ -65,6 +65,8 @@ Usage
 #include "dictionaryEntries.H"
 #include "elementTest.H"
 #include "adaptiveSubstepping.H"
+#include <cmath>
+#include <limits>
 
 using namespace Foam;
 
@@ -96,7 +98,10 @@ static autoPtr<mpm::soilModel> modelOf
     (
         new mpm::adaptiveSubstepping
         (
-            soil.subDict(word(mpm::elastoplasticMuI::typeName) + "Coeffs"),
+            mpm::subDictOf
+            (
+                soil, word(mpm::elastoplasticMuI::typeName) + "Coeffs"
+            ),
             strict
         )
     );
@@ -196,6 +201,19 @@ static void run
         )
     );
 
+    // Also of all legs together
+    const scalar mostSteps = scalar(std::numeric_limits<int>::max());
+    const scalar steps = max(scalar(1), std::round(strain/increment));
+    if (!(steps*max(label(1), 2*cycles) <= mostSteps))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword strain has the value " << strain
+            << ", strainIncrement " << increment << ": "
+            << steps*max(label(1), 2*cycles) << " steps." << nl
+            << "    Allowed: strain/strainIncrement, times twice the cycles, up"
+            << " to " << mostSteps << exit(FatalIOError);
+    }
+
     autoPtr<mpm::elementTest> test(startOf(*model, settings, dict));
 
     const wordList fields(model->stateFields());
@@ -211,7 +229,7 @@ static void run
     file<< ",work,elasticEnergy" << nl;
     writeRow(file, *test, fields.size());
 
-    const label nSteps = max(label(1), label(std::round(strain/increment)));
+    const label nSteps = label(steps);
     const scalar step = strain/nSteps;
 
     scalar qMax = 0, strainOfQMax = 0, ratioMax = 0;
@@ -223,6 +241,19 @@ static void run
         {
             test->advance(leg % 2 ? -step : step);
             const scalar q = test->deviator();
+            if (!test->finite())
+            {
+                writeRow(file, *test, fields.size());
+                FatalIOErrorInFunction(dict)
+                    << "test " << name << ": the state is not finite at strain "
+                    << test->strain() << " (step " << done + 1 << "): p "
+                    << test->pressure() << " Pa, q " << q << " Pa, void ratio "
+                    << test->voidRatio() << '.' << nl
+                    << "    strain has the value " << strain
+                    << ", strainIncrement " << increment << ", strainRate "
+                    << settings.strainRate << "; allowed: less of them"
+                    << exit(FatalIOError);
+            }
             if (q > qMax)
             {
                 qMax = q;
@@ -297,11 +328,12 @@ int main(int argc, char *argv[])
     {
         strict = mpm::readSwitchOrDefault
         (
-            IOdictionary(solution).subOrEmptyDict("MPM"), "strictKeywords", true
+            mpm::subDictOrEmpty(IOdictionary(solution), "MPM"),
+            "strictKeywords", true
         );
     }
 
-    const dictionary& soil = properties.subDict("soil");
+    const dictionary& soil = mpm::subDictOf(properties, "soil");
     const fileName directory
     (
         runTime.globalPath()/"postProcessing"/"soilElementTest"
@@ -311,16 +343,10 @@ int main(int argc, char *argv[])
     if (dict.found("tests"))
     {
         mpm::checkKeywords(dict, {"FoamFile", "tests"}, strict);
-        for (const entry& e : dict.subDict("tests"))
+        const dictionary& all = mpm::subDictOf(dict, "tests");
+        for (const word& name : all.toc())
         {
-            if (!e.isDict())
-            {
-                FatalIOErrorInFunction(dict.subDict("tests"))
-                    << "entry " << e.keyword() << " is not a dictionary." << nl
-                    << "    Allowed: <name> { test drainedTriaxial; ... }"
-                    << exit(FatalIOError);
-            }
-            run(e.keyword(), e.dict(), soil, directory, strict);
+            run(name, mpm::subDictOf(all, name), soil, directory, strict);
         }
     }
     else

@@ -51,6 +51,14 @@ Foam::mpm::frictionalFvPatchVectorField::frictionalFvPatchVectorField
             << coefficient_ << '.' << nl << "    Allowed: >= 0"
             << exit(FatalIOError);
     }
+    if (coefficient_ > 1.2)
+    {
+        IOWarningInFunction(dict)
+            << "patch " << p.name() << ", keyword frictionCoefficient has the"
+            << " value " << coefficient_ << '.' << nl
+            << "    Usual, the tangent of an angle: 0 <= frictionCoefficient"
+            << " <= 1.2" << nl << endl;
+    }
 }
 
 

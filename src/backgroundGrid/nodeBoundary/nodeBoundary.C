@@ -3,11 +3,10 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
 #include "nodeBoundary.H"
+#include "patchTypes.H"
 #include "frictionalFvPatchVectorField.H"
 #include "volFields.H"
-#include "localIOdictionary.H"
 #include "HashTable.H"
 #include "PstreamReduceOps.H"
 #include "debug.H"
@@ -27,12 +26,6 @@ namespace
     (
         Foam::debug::addDebugObject, "mpmMirrorWalls", mirrorWalls
     );
-
-    const Foam::wordList slipTypes({"slip", "symmetryPlane", "symmetry", "frictional"});
-    const Foam::wordList fixedTypes({"noSlip", "fixedValue"});
-    const Foam::wordList openTypes({"zeroGradient", "inletOutlet"});
-    const Foam::wordList otherTypes
-        ({"cyclic", "empty", "processor", "processorCyclic"});
 
     //- The record with every slot one
     inline Foam::mpm::nodeVector ones()
@@ -149,33 +142,13 @@ void Foam::mpm::nodeBoundary::findSides
         const word& type = Up.type();
         sideType kind = inner;
 
-        if (slipTypes.found(type)) kind = slipWall;
-        else if (fixedTypes.found(type)) kind = fixedWall;
-        else if (openTypes.found(type)) kind = open;
-        else if (!otherTypes.found(type))
+        if (patchTypes::slip.found(type)) kind = slipWall;
+        else if (patchTypes::fixed.found(type)) kind = fixedWall;
+        else if (patchTypes::open.found(type)) kind = open;
+        else if (!patchTypes::other.found(type))
         {
-            localIOdictionary file
-            (
-                IOobject
-                (
-                    U.name(),
-                    U.instance(),
-                    U.db(),
-                    IOobject::MUST_READ,
-                    IOobject::NO_WRITE,
-                    false
-                ),
-                volVectorField::typeName
-            );
-            FatalIOErrorInFunction
-            (
-                file.subDict("boundaryField").subDict(Up.patch().name())
-            )   << "patch " << Up.patch().name() << ", keyword type: "
-                << type << " is not a boundary condition of material points."
-                << nl << "    Allowed: " << flatOutput(slipTypes) << " (walls"
-                << " that slip), " << flatOutput(fixedTypes)
-                << " (walls that stick or move), " << flatOutput(openTypes)
-                << " (openings), cyclic, empty" << exit(FatalIOError);
+            patchTypes::refuse
+                (Up, "is not a boundary condition of material points");
         }
         if (kind == inner) continue;
 

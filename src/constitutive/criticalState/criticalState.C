@@ -24,8 +24,20 @@ Foam::mpm::criticalState::criticalState(const dictionary& coeffs)
     np_(readBounded(coeffs, "np", dimless, 0, GREAT, true)),
     nd_(readBounded(coeffs, "nd", dimless, 0, GREAT, true))
 {
-    warnOutside(coeffs, "Ad", Ad_, 0.5, 1.5, "the paper's Table A1");
-    warnOutside(coeffs, "kp", kp_, 1e-4, 1e-2, "the paper's Table A1");
+    warnUnusual
+    (
+        coeffs,
+        {
+            {"phiC", 20, 45, "glass beads to angular sands, in degrees"},
+            {"eRef", 0.4, 1.5, "sands"},
+            {"lambda", 0, 0.3, "sands"},
+            {"xi", 0.2, 1, "sands"},
+            {"Ad", 0.5, 1.5, "the paper's Table A1"},
+            {"kp", 1e-4, 1e-2, "the paper's Table A1"},
+            {"np", 0, 10, "sands"},
+            {"nd", 0, 10, "sands"}
+        }
+    );
 }
 
 

@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "dictionaryEntries.H"
 #include "Switch.H"
 #include "ITstream.H"
@@ -16,28 +16,62 @@ License
 namespace
 {
 
-//- Number of insertions, deletions and replacements between two words
+//- Number of insertions, deletions, replacements and swaps of neighbours
+//  between two words, whatever their case
 Foam::label editDistance(const std::string& a, const std::string& b)
 {
-    std::vector<Foam::label> row(b.size() + 1);
+    using Foam::label;
+
+    auto same = [&](const size_t i, const size_t j)
+    {
+        return std::tolower(a[i-1]) == std::tolower(b[j-1]);
+    };
+    std::vector<label> before(b.size() + 1), last(b.size() + 1);
+    std::vector<label> row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
 
     for (size_t i = 1; i <= a.size(); ++i)
     {
-        Foam::label diagonal = row[0];
+        before.swap(last);
+        last.swap(row);
         row[0] = i;
         for (size_t j = 1; j <= b.size(); ++j)
         {
-            const Foam::label above = row[j];
             row[j] = std::min
             (
-                diagonal + (std::tolower(a[i-1]) != std::tolower(b[j-1])),
-                1 + std::min(above, row[j-1])
+                last[j-1] + !same(i, j),
+                1 + std::min(last[j], row[j-1])
             );
-            diagonal = above;
+            if (i > 1 && j > 1 && same(i, j-1) && same(i-1, j))
+            {
+                row[j] = std::min(row[j], before[j-2] + 1);
+            }
         }
     }
     return row[b.size()];
+}
+
+
+//- The one of some words that is nearest to a word, if nearer than a limit
+const Foam::word* nearestOf
+(
+    const Foam::word& keyword,
+    const Foam::wordList& known,
+    const Foam::label limit
+)
+{
+    const Foam::word* nearest = nullptr;
+    Foam::label distance = limit;
+    for (const Foam::word& candidate : known)
+    {
+        const Foam::label n = editDistance(keyword, candidate);
+        if (n < distance)
+        {
+            distance = n;
+            nearest = &candidate;
+        }
+    }
+    return nearest;
 }
 
 
@@ -122,7 +156,7 @@ void checkBounds
             FatalIOError<< lower << (lowerIncluded ? " <= " : " < ");
         }
         FatalIOError<< keyword;
-        if (upper < GREAT)
+        if (upper < GREAT || !below)
         {
             FatalIOError<< (upperIncluded ? " <= " : " < ") << upper;
         }
@@ -187,22 +221,69 @@ Foam::scalar Foam::mpm::readPositive
 }
 
 
-void Foam::mpm::warnOutside
+void Foam::mpm::warnUnusual
 (
     const dictionary& dict,
-    const word& keyword,
-    const scalar value,
-    const scalar lower,
-    const scalar upper,
-    const string& source
+    const std::initializer_list<usualRange>& ranges
 )
 {
-    if (value >= lower && value <= upper) return;
+    for (const usualRange& range : ranges)
+    {
+        const word keyword(range.keyword);
+        if (!dict.found(keyword)) continue;
 
-    IOWarningInFunction(dict)
-        << "keyword " << keyword << " has the value " << value << '.' << nl
-        << "    Usual, from " << source.c_str() << ": " << lower << " <= "
-        << keyword << " <= " << upper << endl;
+        // Its dimensions were checked where it was read
+        const ITstream& is = dict.lookup(keyword);
+        if (is.empty() || !is.last().isNumber()) continue;
+        const scalar value = is.last().number();
+        if (value >= range.lower && value <= range.upper) continue;
+
+        OSstream& os = IOWarningInFunction(dict);
+        os  << "keyword " << keyword << " has the value " << value << '.'
+            << nl << "    Usual (" << range.source << "): " << range.lower << " <= " << keyword;
+        if (range.upper < GREAT) os << " <= " << range.upper;
+        os  << nl << endl;
+    }
+}
+
+
+const Foam::dictionary& Foam::mpm::subDictOf
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    const entry* e = dict.findEntry(keyword, keyType::REGEX);
+    if (!e)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " is missing in dictionary "
+            << dict.name() << '.' << nl << "    Allowed: a dictionary, "
+            << keyword << " { ... }" << exit(FatalIOError);
+    }
+    if (!e->isDict())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value "
+            << e->stream().toString().c_str() << ", which is not a dictionary." << nl
+            << "    Allowed: a dictionary, " << keyword << " { ... }"
+            << exit(FatalIOError);
+    }
+    return e->dict();
+}
+
+
+Foam::dictionary Foam::mpm::subDictOrEmpty
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    // What is missing is OpenFOAM's, which names it in messages
+    return
+        dict.found(keyword, keyType::REGEX)
+      ? subDictOf(dict, keyword)
+      : dict.subOrEmptyDict(keyword);
 }
 
 
@@ -241,7 +322,7 @@ Foam::word Foam::mpm::readChoice
     {
         FatalIOErrorInFunction(dict)
             << "keyword " << keyword << ": unknown " << keyword << ' '
-            << value << nl << "    Valid names: " << flatOutput(allowed)
+            << value << nl << "    Valid names: " << listed(allowed)
             << exit(FatalIOError);
     }
     return value;
@@ -263,6 +344,27 @@ Foam::word Foam::mpm::readChoiceOrDefault
 }
 
 
+void Foam::mpm::reportEntry
+(
+    const dictionary& dict,
+    const string& message,
+    const bool strict
+)
+{
+    if (strict)
+    {
+        FatalIOErrorInFunction(dict)
+            << message.c_str() << nl << "    (strictKeywords no; in the"
+            << " sub-dictionary MPM of system/fvSolution turns this into"
+            << " a warning)" << exit(FatalIOError);
+    }
+    else
+    {
+        IOWarningInFunction(dict) << message.c_str() << nl << endl;
+    }
+}
+
+
 void Foam::mpm::checkKeywords
 (
     const dictionary& dict,
@@ -280,32 +382,51 @@ void Foam::mpm::checkKeywords
             << "unknown keyword " << keyword << " in dictionary "
             << dict.name() << " line " << e.startLineNumber() << ".\n    ";
 
-        const word* nearest = nullptr;
-        label distance = max(label(2), label(keyword.size()/3)) + 1;
-        for (const word& candidate : known)
-        {
-            const label n = editDistance(keyword, candidate);
-            if (n < distance)
-            {
-                distance = n;
-                nearest = &candidate;
-            }
-        }
+        const word* nearest = nearestOf
+        (
+            keyword, known, max(label(2), label(keyword.size()/3)) + 1
+        );
         if (nearest) message << "Did you mean " << *nearest << "? ";
         message << "Known keywords: ";
         for (const word& candidate : known) message << candidate << ' ';
 
-        if (strict)
+        reportEntry(dict, message.str(), strict);
+    }
+}
+
+
+void Foam::mpm::checkNearMisses
+(
+    const dictionary& dict,
+    const wordList& known,
+    const wordList& ofOthers,
+    const bool strict
+)
+{
+    for (const entry& e : dict)
+    {
+        const word& keyword = e.keyword();
+        if
+        (
+            e.keyword().isPattern()
+         || known.found(keyword) || ofOthers.found(keyword)
+        )
         {
-            FatalIOErrorInFunction(dict)
-                << message.str().c_str() << nl << "    (strictKeywords no; in the"
-                << " sub-dictionary MPM of system/fvSolution turns this into"
-                << " a warning)" << exit(FatalIOError);
+            continue;
         }
-        else
-        {
-            IOWarningInFunction(dict) << message.str().c_str() << endl;
-        }
+
+        // Short words are near to many others
+        const word* nearest =
+            nearestOf(keyword, known, keyword.size() < 8 ? 2 : 3);
+        if (!nearest) continue;
+
+        std::ostringstream message;
+        message
+            << "unknown keyword " << keyword << " in dictionary "
+            << dict.name() << " is not used.\n    Did you mean " << *nearest << '?';
+
+        // Beside the right one it may be somebody's own, for $macros
+        reportEntry(dict, message.str(), strict && !dict.found(*nearest));
     }
 }
 

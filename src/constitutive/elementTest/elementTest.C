@@ -236,6 +236,22 @@ void Foam::mpm::elementTest::advance(const scalar increment)
 }
 
 
+bool Foam::mpm::elementTest::finite() const
+{
+    bool all = std::isfinite(now_.voidRatio);
+    for (label c = 0; c < nStress; ++c)
+    {
+        all = all && std::isfinite(now_.stress[c]);
+        all = all && std::isfinite(now_.whole[c]);
+    }
+    for (label i = 0; i < nState; ++i)
+    {
+        all = all && std::isfinite(now_.state[i]);
+    }
+    return all;
+}
+
+
 Foam::scalar Foam::mpm::elementTest::skeletonPressure() const
 {
     return meanOf(now_.stress);

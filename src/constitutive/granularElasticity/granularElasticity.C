@@ -95,6 +95,15 @@ Foam::mpm::granularElasticity::granularElasticity
         if (n_ == 0.5) law_ = squareRootLaw;
     }
     bulk_ = E/(3*(1 - 2*nu_));
+    warnUnusual
+    (
+        coeffs,
+        {
+            {"E", 5e4, 1e10, "soils, in Pa"},
+            {"E0", 20, 2000, "sands, dimensionless"},
+            {"nu", 0.05, 0.45, "soils"}
+        }
+    );
 
     const scalar pE = readBoundedOrDefault
     (

@@ -32,6 +32,17 @@ Foam::mpm::muIRheology::muIRheology
         factor_ =
             2*d*readPositive(coeffs, "dPhi", dimless)*std::sqrt(rhoS);
     }
+    warnUnusual
+    (
+        coeffs,
+        {
+            {"I0", 1e-3, 1, "grains"},
+            {"muS", 0.2, 1.2, "grains, the tangent of an angle"},
+            {"muD", 0.2, 1.5, "grains, the tangent of an angle"},
+            {"PhiC", 0.5, 0.8, "packings of grains"},
+            {"dPhi", 0.01, 1, "grains"}
+        }
+    );
 }
 
 

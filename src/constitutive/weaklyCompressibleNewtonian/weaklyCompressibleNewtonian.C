@@ -20,12 +20,26 @@ Foam::mpm::weaklyCompressibleNewtonian::weaklyCompressibleNewtonian
 {
     readChoice(cloudDict, "constitutiveModel", {typeName});
 
-    const dictionary& dict = cloudDict.subDict(word(typeName) + "Coeffs");
+    const dictionary& dict = 
+        subDictOf(cloudDict, word(typeName) + "Coeffs");
     checkKeywords(dict, {"rho0", "mu", "soundSpeed", "gamma"}, strictKeywords);
 
     rho0_ = readPositive(dict, "rho0", dimDensity);
     mu_ = readBounded(dict, "mu", dimDynamicViscosity, 0, GREAT, true);
     gamma_ = readBoundedOrDefault(dict, "gamma", dimless, 7, 1, 100);
+
+    warnUnusual
+    (
+        dict,
+        {
+            {"rho0", 600, 3200, "liquids, in kg/m3"},
+            {"gamma", 1, 10, "liquids (water: 7)"}
+        }
+    );
+    if (mu_ > 0)
+    {
+        warnUnusual(dict, {{"mu", 1e-4, 100, "liquids, in Pa s"}});
+    }
 
     if (dict.found("soundSpeed"))
     {

@@ -5,6 +5,7 @@ License
 
 #include "bedTimeSeries.H"
 #include "dictionaryEntries.H"
+#include "listed.H"
 #include "waterCloud.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -37,7 +38,7 @@ Foam::label Foam::mpm::bedTimeSeries::findDirection
     FatalIOErrorInFunction(dict)
         << "keyword direction is " << direction << '.' << nl
         << "    Allowed: a horizontal direction of the mesh, one of "
-        << allowed << exit(FatalIOError);
+        << listed(allowed) << exit(FatalIOError);
     return -1;
 }
 

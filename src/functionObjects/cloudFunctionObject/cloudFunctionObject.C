@@ -5,7 +5,7 @@ License
 
 #include "cloudFunctionObject.H"
 #include "dictionaryEntries.H"
-#include "FlatOutput.H"
+#include "listed.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -24,7 +24,7 @@ void Foam::mpm::cloudFunctionObject::checkEntries(const dictionary& dict) const
     });
     known.append(keywords());
 
-    const dictionary control(mesh_.solutionDict().subOrEmptyDict("MPM"));
+    const dictionary control(subDictOrEmpty(mesh_.solutionDict(), "MPM"));
     checkKeywords
     (
         dict,
@@ -42,7 +42,7 @@ void Foam::mpm::cloudFunctionObject::checkCloud(const dictionary& dict) const
             << "function object " << name() << ", keyword cloud: there is no"
             << " material point cloud " << cloudName_ << '.' << nl
             << "    Clouds of this case: "
-            << flatOutput(mesh_.sortedNames<materialPointCloud>())
+            << listed(mesh_.sortedNames<materialPointCloud>())
             << exit(FatalIOError);
     }
 }

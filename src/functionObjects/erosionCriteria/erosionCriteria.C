@@ -9,7 +9,6 @@ License
 #include "gravityMeshObject.H"
 #include "volFields.H"
 #include "OSspecific.H"
-#include "FlatOutput.H"
 #include "PstreamReduceOps.H"
 #include "addToRunTimeSelectionTable.H"
 #include <limits>
@@ -124,7 +123,7 @@ void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
     );
 
     // A line needs two cells, the law of the wall one above z0
-    const scalar lowest = logLaw_ ? roughness_/30 : 0;
+    const scalar lowest = lowestHeight();
     const scalar least = (logLaw_ ? 1 : 2)*h;
     if
     (
@@ -218,15 +217,40 @@ Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
 ) const
 {
     const scalar bed = h.bed[column], surface = h.water[column];
-    flow result{noNumber, noNumber, noNumber};
+    flow result{noNumber, noNumber, noNumber, noNumber};
     if (std::isnan(bed)) return result;
 
     result.depth = surface > bed ? surface - bed : 0;
     const scalar half = 0.5*cloud().grid().cells().spacing(vertical());
 
+    // The band, lowered to the highest cells that are full of water where it
+    // holds too few of them
+    const label needed = logLaw_ ? 1 : 2;
+    scalar lower = heights_.first(), upper = heights_.second();
+    scalar highest = -GREAT;
+    label inBand = 0;
+    for (label row = 0; row < surfaces().nRows(); ++row)
+    {
+        const label k = column*surfaces().nRows() + row;
+        const scalar z = surfaces().height(row) + half - bed;
+        if (z < 0 || z > result.depth || u.alphaWater[k] < 0.5) continue;
+
+        highest = max(highest, z);
+        inBand += z >= lower && z <= upper;
+    }
+    if (inBand < needed)
+    {
+        // Above what the grid mixes with the bed, if there is enough
+        const scalar clear =
+            min(3*half, highest - (needed - 1)*2*half*(1 + 1e-6));
+        lower = max(highest - (upper - lower), clear);
+        lower = max(lower, max(lowestHeight(), 0.5*half));
+        upper = highest;
+    }
+
     // Sums over the cells of the band; of the velocities by direction
     label n = 0;
-    scalar sumL = 0, sumLL = 0;
+    scalar sumZ = 0, sumL = 0, sumLL = 0;
     scalarList sumU(u.water.size(), Zero), sumUL(u.water.size(), Zero);
     scalar volume = 0, flux = 0;
 
@@ -241,7 +265,7 @@ Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
 
         if
         (
-            z < heights_.first() || z > heights_.second()
+            z < lower || z > upper
          || u.alphaWater[k] < 0.5
         )
         {
@@ -249,6 +273,7 @@ Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
         }
         const scalar L = logLaw_ ? std::log(30*z/roughness_) : z;
         ++n;
+        sumZ += z;
         sumL += L;
         sumLL += L*L;
         forAll(sumU, d)
@@ -258,7 +283,8 @@ Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
         }
     }
     if (volume > 0) result.meanVelocity = flux/volume;
-    if (n < (logLaw_ ? 1 : 2)) return result;
+    if (n < needed) return result;
+    result.height = sumZ/n;
 
     // u = slope L, or with an intercept for the straight line
     scalarList slope(sumU.size());
@@ -409,6 +435,16 @@ Foam::stringList Foam::mpm::erosionCriteria::description() const
       + ", from water " + Foam::name(heights_.first()) + " to "
       + Foam::name(heights_.second()) + " m above the bed"
     );
+    lines.append
+    (
+        "Water too thin for these heights: from the highest cells that are"
+        " full of it (column velocityHeight: their mean height)"
+    );
+    lines.append
+    (
+        string("nan: no water, or none left: fewer than ")
+      + (logLaw_ ? "one full cell" : "two full cells") + " over the bed"
+    );
     forAll(criteria_, i)
     {
         const erosionCriterion& c = criteria_[i];
@@ -439,6 +475,7 @@ Foam::wordList Foam::mpm::erosionCriteria::columns() const
         names.append(word(criterion + "Stress"));
         names.append(word(criterion + "Exceeded"));
     }
+    names.append("velocityHeight");
     return names;
 }
 
@@ -486,6 +523,7 @@ Foam::List<Foam::scalarList> Foam::mpm::erosionCriteria::rows() const
                   : mag(stress) > critical ? 1 : 0
                 );
             }
+            means[i].add(f.height);
         }
         lines[station].setSize(means.size());
         forAll(means, i) lines[station][i] = means[i].value();

@@ -5,7 +5,7 @@ License
 
 #include "materialPointHDF5.H"
 #include "dictionaryEntries.H"
-#include "FlatOutput.H"
+#include "listed.H"
 #include "ListOps.H"
 #include "OSspecific.H"
 #include "clockTime.H"
@@ -106,7 +106,7 @@ void Foam::mpm::materialPointHDF5::checkFields(const dictionary& dict) const
         FatalIOErrorInFunction(dict)
             << "keyword fields: " << pattern << " is no field of the cloud "
             << cloud().name() << '.' << nl
-            << "    Allowed: " << flatOutput(known) << exit(FatalIOError);
+            << "    Allowed: " << listed(known) << exit(FatalIOError);
     }
 }
 

@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "materialPointSystem.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
@@ -57,23 +57,20 @@ void Foam::mpm::materialPointSystem::readSettings()
     }
 
     settings_.energyBalance.clear();
-    if (const dictionary* functions = time_.controlDict().findDict("functions"))
+    for (const entry& e : subDictOrEmpty(time_.controlDict(), "functions"))
     {
-        for (const entry& e : *functions)
+        if
+        (
+            e.isDict()
+         && e.dict().lookupOrDefault<word>("type", word::null)
+         == "materialPointEnergy"
+         && e.dict().lookupOrDefault<Switch>("enabled", true)
+        )
         {
-            if
+            settings_.energyBalance.append
             (
-                e.isDict()
-             && e.dict().lookupOrDefault<word>("type", word::null)
-             == "materialPointEnergy"
-             && e.dict().lookupOrDefault<Switch>("enabled", true)
-            )
-            {
-                settings_.energyBalance.append
-                (
-                    e.dict().lookupOrDefault<word>("cloud", word::null)
-                );
-            }
+                e.dict().lookupOrDefault<word>("cloud", word::null)
+            );
         }
     }
 
@@ -86,6 +83,22 @@ void Foam::mpm::materialPointSystem::readSettings()
             "pressureForm", "logInterval", "strictKeywords", "gravity",
             "relaxation"
         },
+        settings_.strictKeywords
+    );
+
+    // Others have their entries in controlDict, too
+    checkNearMisses
+    (
+        time_.controlDict(),
+        {
+            "application", "startFrom", "startTime", "stopAt", "endTime",
+            "deltaT", "adjustTimeStep", "maxCo", "maxDeltaT", "writeControl",
+            "writeInterval", "purgeWrite", "writeFormat", "writePrecision",
+            "writeCompression", "timeFormat", "timePrecision",
+            "runTimeModifiable", "libs", "functions", "DebugSwitches",
+            "InfoSwitches", "OptimisationSwitches"
+        },
+        {"minDeltaT", "maxAlphaCo", "maxDi", "graphFormat", "writeVersion"},
         settings_.strictKeywords
     );
 
@@ -129,6 +142,21 @@ void Foam::mpm::materialPointSystem::readGravity()
             << exit(FatalError);
     }
     g_ = g.value();
+
+    label steepest = 0;
+    for (label d = 1; d < 3; ++d)
+    {
+        if (mag(g_[d]) > mag(g_[steepest])) steepest = d;
+    }
+    if (g_[steepest] > 0)
+    {
+        WarningInFunction
+            << "file " << g.objectPath() << ": keyword value is " << g_
+            << ": things fall towards +" << vector::componentNames[steepest]
+            << '.' << nl << "    Usual: a negative component, as (0 -9.81 0)"
+            << nl << "    Levels and depths follow the gravity given."
+            << nl << endl;
+    }
 
     if (grid_.nDim() == 2)
     {
@@ -244,7 +272,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
         {
             FatalIOErrorInFunction(properties_)
                 << "keyword clouds: unknown cloud " << names[i] << nl
-                << "    Valid names: " << flatOutput(allowed)
+                << "    Valid names: " << listed(allowed)
                 << exit(FatalIOError);
         }
         if (names.find(names[i]) != i)
@@ -260,12 +288,27 @@ void Foam::mpm::materialPointSystem::makeClouds()
     wordList known(names);
     known.append("clouds");
     if (settings_.coupled) known.append("interaction");
+    for (const word& left : wordList({"water", "soil", "interaction"}))
+    {
+        if (known.found(left) || !properties_.found(left)) continue;
+
+        // Known is what it could be
+        known.append(left);
+        reportEntry
+        (
+            properties_,
+            "dictionary " + left + " is not used: clouds is ("
+          + names[0] + ").\n    Allowed: clouds (water soil), or no dictionary "
+          + left,
+            settings_.strictKeywords
+        );
+    }
     checkKeywords(properties_, known, settings_.strictKeywords);
 
     clouds_.setSize(names.size());
     forAll(names, i)
     {
-        const dictionary& dict = properties_.subDict(names[i]);
+        const dictionary& dict = subDictOf(properties_, names[i]);
         if (names[i] == "water")
         {
             waterCloud::checkDictionary(dict, settings_.strictKeywords);
@@ -326,11 +369,7 @@ void Foam::mpm::materialPointSystem::findFieldControls()
         "erosionCriteria"
     });
 
-    const dictionary* functions =
-        time_.controlDict().findDict("functions");
-    if (!functions) return;
-
-    for (const entry& e : *functions)
+    for (const entry& e : subDictOrEmpty(time_.controlDict(), "functions"))
     {
         if (!e.isDict()) continue;
         const dictionary& dict = e.dict();
@@ -393,21 +432,18 @@ void Foam::mpm::materialPointSystem::findWriteIntervals()
     {
         addWriteInterval(dict, "writeInterval");
     }
-    if (const dictionary* functions = dict.findDict("functions"))
+    for (const entry& e : subDictOrEmpty(dict, "functions"))
     {
-        for (const entry& e : *functions)
+        if (!e.isDict()) continue;
+        for (const word& prefix : {word("write"), word("execute")})
         {
-            if (!e.isDict()) continue;
-            for (const word& prefix : {word("write"), word("execute")})
+            const word control
+            (
+                e.dict().lookupOrDefault<word>(prefix + "Control", "none")
+            );
+            if (control == "adjustable" || control == "adjustableRunTime")
             {
-                const word control
-                (
-                    e.dict().lookupOrDefault<word>(prefix + "Control", "none")
-                );
-                if (control == "adjustable" || control == "adjustableRunTime")
-                {
-                    addWriteInterval(e.dict(), prefix + "Interval");
-                }
+                addWriteInterval(e.dict(), prefix + "Interval");
             }
         }
     }
@@ -538,7 +574,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
             IOobject::NO_WRITE
         )
     ),
-    control_(mesh.solutionDict().subOrEmptyDict("MPM")),
+    control_(subDictOrEmpty(mesh.solutionDict(), "MPM")),
     grid_(mesh, control_),
     water_(nullptr),
     soil_(nullptr),
@@ -598,7 +634,7 @@ Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
     }
     FatalIOErrorInFunction(properties_)
         << "there is no cloud " << name << nl << "    Clouds of this case: "
-        << flatOutput(names) << exit(FatalIOError);
+        << listed(names) << exit(FatalIOError);
     return clouds_[0];
 }
 
@@ -682,6 +718,37 @@ void Foam::mpm::materialPointSystem::reportEffects() const
         Info<< "    coupling: " << nodes/1e6 << " MB on nodes" << nl;
     }
     Info<< endl;
+}
+
+
+void Foam::mpm::materialPointSystem::startDeltaT(Time& runTime) const
+{
+    // A run that ended may have a little left
+    if (runTime.timeIndex() > 0) return;
+
+    const scalar whole = runTime.endTime().value() - runTime.value();
+    if
+    (
+        0.5*runTime.deltaTValue() < whole
+     || whole <= 0
+     || Time::timeName(runTime.endTime().value()) == runTime.timeName()
+    )
+    {
+        return;
+    }
+    if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
+    {
+        runTime.setDeltaT(whole, false);
+    }
+    else
+    {
+        FatalIOErrorInFunction(runTime.controlDict())
+            << "keyword deltaT is " << runTime.deltaTValue()
+            << " s, longer than the run from " << runTime.timeName() << " to "
+            << runTime.endTime().value() << " s." << nl
+            << "    Allowed: deltaT <= " << whole
+            << " s, or adjustTimeStep yes" << exit(FatalIOError);
+    }
 }
 
 

@@ -235,7 +235,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
             << "    Drag is explicit. Results are not to be trusted." << endl;
     }
 
-    const dictionary dict(properties.subOrEmptyDict("interaction"));
+    const dictionary dict(subDictOrEmpty(properties, "interaction"));
     checkKeywords(dict, {"drag"}, strictKeywords);
 
     drag_ = dragModel::New
@@ -246,6 +246,16 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
             soil.model().d(), water.fluid().mu(), water.fluid().rho0()
         }
     );
+
+    if (soil.model().rhoS() <= water.fluid().rho0())
+    {
+        IOWarningInFunction(properties)
+            << "keyword rhoS of the soil is " << soil.model().rhoS()
+            << ", rho0 of the water " << water.fluid().rho0()
+            << " kg/m3: the grains float." << nl
+            << "    Usual: rhoS > rho0 (rhoS is of the solid, without pores)"
+            << nl << endl;
+    }
 
     water_.couple(fields_);
     soil_.couple(fields_);

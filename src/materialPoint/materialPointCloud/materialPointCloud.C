@@ -8,6 +8,9 @@ License
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
+#include "frictionalFvPatchVectorField.H"
+#include "patchTypes.H"
+#include "OSspecific.H"
 #include <algorithm>
 
 namespace Foam
@@ -27,6 +30,49 @@ namespace
 
     //- Distance behind a wall, in cells, that is put down to rounding
     const Foam::scalar wallRounding = 1e-6;
+
+    //- The file of the velocity of a cloud, which must be there
+    Foam::IOobject velocityFile
+    (
+        const Foam::word& cloud,
+        const Foam::fvMesh& mesh
+    )
+    {
+        using namespace Foam;
+
+        IOobject io
+        (
+            "U." + cloud,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::AUTO_WRITE
+        );
+        const bool here = io.typeHeaderOk<volVectorField>(false);
+        if (!returnReduce(here, andOp<bool>()))
+        {
+            const fileName original
+            (
+                mesh.time().globalPath()/"0.orig"/io.name()
+            );
+            FatalErrorInFunction
+                << "file " << io.objectPath() << " is missing, or none of"
+                << " class " << volVectorField::typeName << ": it says what"
+                << " the patches are to the cloud " << cloud << '.' << nl
+                << "    "
+                << (
+                       isFile(original)
+                     ? "It is in 0.orig: cp -r 0.orig 0"
+                     : "etc/caseDicts/annotated has an example"
+                   )
+                << (
+                       Pstream::parRun()
+                     ? ", and decomposePar again" : ""
+                   )
+                << exit(FatalError);
+        }
+        return io;
+    }
 }
 
 
@@ -222,18 +268,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     C_(-1),
     mass_(points_.add("mass", pointStorage::scalarValue)),
     id_(points_.add("id", pointStorage::scalarValue)),
-    U_
-    (
-        IOobject
-        (
-            "U." + name,
-            mesh.time().timeName(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::AUTO_WRITE
-        ),
-        mesh
-    ),
+    U_(velocityFile(name, mesh), mesh),
     alpha_
     (
         IOobject
@@ -279,6 +314,10 @@ Foam::mpm::materialPointCloud::materialPointCloud
 
     for (const fvPatchVectorField& Up : U_.boundaryField())
     {
+        if (!soil && isA<frictionalFvPatchVectorField>(Up))
+        {
+            patchTypes::refuse(Up, "holds grains, not water");
+        }
         if (Up.type() == "inletOutlet" && !mesh.foundObject<surfaceScalarField>("phi"))
         {
             phi_.reset

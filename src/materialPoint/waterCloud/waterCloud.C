@@ -425,7 +425,10 @@ void Foam::mpm::waterCloud::findSoundSpeed
     {
         FatalIOErrorInFunction
         (
-            dict_.subDict(word(weaklyCompressibleNewtonian::typeName) + "Coeffs")
+            subDictOf
+            (
+                dict_, word(weaklyCompressibleNewtonian::typeName) + "Coeffs"
+            )
         )   << "keyword soundSpeed is auto, but the scene has neither gravity"
             << " nor speed to find it from (c = 0)." << nl
             << "    Allowed: soundSpeed > 0 m/s, about 10 times the fastest"

@@ -37,6 +37,14 @@ Foam::mpm::DruckerPrager::DruckerPrager
     (
         coeffs, "psi", dimless, 0, 0, phi, true, true
     );
+    warnUnusual
+    (
+        coeffs,
+        {
+            {"phi", 15, 50, "grains, in degrees"},
+            {"psi", 0, 25, "dense sands, in degrees"}
+        }
+    );
     const word cone = readChoiceOrDefault
     (
         coeffs, "cone", "compression",

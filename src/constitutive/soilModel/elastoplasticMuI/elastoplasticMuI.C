@@ -33,13 +33,13 @@ Foam::mpm::elastoplasticMuI::elastoplasticMuI
     checkKeywords(coeffs, keywords(false, own), strictKeywords);
 
     readBounded(coeffs, "PhiC", dimless, 1/(1 + e0_), 1, false, true);
-    warnOutside
+    warnUnusual
     (
-        coeffs, "nu", elasticity_.nu(), 0.2, 0.25, "the paper's Table A1"
-    );
-    warnOutside
-    (
-        coeffs, "n", elasticity_.n(), 0.5, 0.7, "the paper's Table A1"
+        coeffs,
+        {
+            {"nu", 0.2, 0.25, "the paper's Table A1"},
+            {"n", 0.5, 0.7, "the paper's Table A1"}
+        }
     );
 
     loosestContact_ = strength_.eRef();

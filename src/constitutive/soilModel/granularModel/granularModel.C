@@ -123,6 +123,7 @@ Foam::mpm::granularModel::granularModel
     const scalar nsC =
         readBoundedOrDefault(coeffs, "nsC", dimless, 0.4, 0, 1);
     suspendedVoidRatio_ = (1 - nsC)/nsC;
+    warnUnusual(coeffs, {{"nsC", 0.2, 0.56, "packings of grains"}});
 
     if (KriegerDougherty_ && nsC >= 0.64)
     {

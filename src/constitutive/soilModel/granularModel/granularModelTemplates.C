@@ -736,7 +736,7 @@ void Foam::mpm::granularModel::initialiseWith
         points.state[INERTIAL_NUMBER][i] = 0;
         points.state[REGIME][i] = staticBed;
 
-        if (e > suspendedVoidRatio_ || (p <= pRes_ && q <= pRes_))
+        if (e > suspendedVoidRatio_ || (mag(p) <= pRes_ && q <= pRes_))
         {
             // Touching grains without stress carry as soon as e falls
             const bool floats = e > suspendedVoidRatio_;
@@ -747,6 +747,14 @@ void Foam::mpm::granularModel::initialiseWith
         }
         else
         {
+            if (!(p > 0))
+            {
+                FatalIOErrorInFunction(coeffs_)
+                    << "start stress: the mean pressure p of the grains has"
+                    << " the value " << p << " Pa." << nl
+                    << "    Allowed: p > 0 (stress is positive in tension)"
+                    << exit(FatalIOError);
+            }
             points.state[PLASTIC_STRAIN][i] =
                 dim == 2
               ? model.template startStrain<2>(s, q, p, e)

@@ -99,6 +99,7 @@ Foam::mpm::linearElastic::linearElastic
     nu_ = readBounded(coeffs, "nu", dimless, 0, 0.5, true);
     K_ = E_/(3*(1 - 2*nu_));
     shearRatio_ = 1.5*(1 - 2*nu_)/(1 + nu_);
+    warnUnusual(coeffs, {{"E", 5e4, 1e10, "soils, in Pa"}});
 }
 
 

@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "soilModel.H"
 #include "dictionaryEntries.H"
 
@@ -27,7 +27,17 @@ Foam::mpm::soilModel::soilModel(const dictionary& coeffs)
     rhoS_(readPositive(coeffs, "rhoS", dimDensity)),
     d_(readPositive(coeffs, "d", dimLength)),
     e0_(readBounded(coeffs, "e0", dimless, 0, maxVoidRatio))
-{}
+{
+    warnUnusual
+    (
+        coeffs,
+        {
+            {"rhoS", 2000, 5300, "minerals, in kg/m3 of solid"},
+            {"d", 2e-6, 0.063, "silt to gravel, in m"},
+            {"e0", 0.2, 1.5, "packings of grains"}
+        }
+    );
+}
 
 
 Foam::autoPtr<Foam::mpm::soilModel> Foam::mpm::soilModel::New
@@ -44,10 +54,10 @@ Foam::autoPtr<Foam::mpm::soilModel> Foam::mpm::soilModel::New
         FatalIOErrorInFunction(cloudDict)
             << "keyword constitutiveModel: unknown soil model " << name << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
-    return found()(cloudDict.subDict(name + "Coeffs"), strictKeywords);
+    return found()(subDictOf(cloudDict, name + "Coeffs"), strictKeywords);
 }
 
 // ************************************************************************* //

@@ -4,7 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "dragModel.H"
-#include "FlatOutput.H"
+#include "listed.H"
 
 namespace Foam
 {
@@ -31,7 +31,7 @@ Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
         FatalIOErrorInFunction(dict)
             << "keyword drag: unknown drag model " << name << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
     return found()(m);

@@ -4,7 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "erosionCriterion.H"
-#include "FlatOutput.H"
+#include "listed.H"
 
 namespace Foam
 {
@@ -30,7 +30,7 @@ Foam::autoPtr<Foam::mpm::erosionCriterion> Foam::mpm::erosionCriterion::New
         FatalIOErrorInFunction(dict)
             << "keyword criteria: unknown erosion criterion " << name << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
     return found()(dict, b);

@@ -17,32 +17,17 @@ void Foam::mpm::inflowOutflow::makeInlets
     const bool soil
 )
 {
-    const dictionary& all = dict.subOrEmptyDict("inlets");
-    DynamicList<const entry*> entries;
-    for (const entry& e : all)
-    {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(all)
-                << "entry " << e.keyword() << " is not a dictionary." << nl
-                << "    Allowed: <name> { patch ...; velocity ...; }"
-                << exit(FatalIOError);
-        }
-        entries.append(&e);
-    }
+    const dictionary all(subDictOrEmpty(dict, "inlets"));
+    const wordList names(all.toc());
 
-    inlets_.setSize(entries.size());
+    inlets_.setSize(names.size());
     labelHashSet taken;
-    forAll(entries, i)
+    forAll(names, i)
     {
+        const dictionary& entries = subDictOf(all, names[i]);
         inlets_.set
         (
-            i,
-            new inlet
-            (
-                entries[i]->keyword(), entries[i]->dict(), grid_, U, g, soil,
-                strict_
-            )
+            i, new inlet(names[i], entries, grid_, U, g, soil, strict_)
         );
 
         bool twice = false;
@@ -52,7 +37,7 @@ void Foam::mpm::inflowOutflow::makeInlets
         }
         if (returnReduce(twice, orOp<bool>()))
         {
-            FatalIOErrorInFunction(entries[i]->dict())
+            FatalIOErrorInFunction(entries)
                 << "inlet " << inlets_[i].name() << " has cells in its zone"
                 << " that belong to an inlet before it." << nl
                 << "    Allowed: inlets a cell apart" << exit(FatalIOError);
@@ -67,18 +52,13 @@ void Foam::mpm::inflowOutflow::makeOutlets
     const volVectorField& U
 )
 {
-    const dictionary& all = dict.subOrEmptyDict("outlets");
-    for (const entry& e : all)
+    const dictionary all(subDictOrEmpty(dict, "outlets"));
+    for (const word& name : all.toc())
     {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(all)
-                << "entry " << e.keyword() << " is not a dictionary." << nl
-                << "    Allowed: <name> { type ...; }" << exit(FatalIOError);
-        }
+        const dictionary& entries = subDictOf(all, name);
         const label i = outlets_.size();
         outlets_.setSize(i + 1);
-        outlets_.set(i, outlet::New(e.keyword(), e.dict(), U, strict_).ptr());
+        outlets_.set(i, outlet::New(name, entries, U, strict_).ptr());
 
         for (label j = 0; j < i; ++j)
         {
@@ -88,8 +68,8 @@ void Foam::mpm::inflowOutflow::makeOutlets
              && outlets_[i].patch() == outlets_[j].patch()
             )
             {
-                FatalIOErrorInFunction(e.dict())
-                    << "keyword patch of outlet " << e.keyword()
+                FatalIOErrorInFunction(entries)
+                    << "keyword patch of outlet " << name
                     << ": the patch belongs to outlet " << outlets_[j].name()
                     << '.' << nl << "    Allowed: one outlet for each patch"
                     << exit(FatalIOError);
@@ -213,7 +193,7 @@ Foam::autoPtr<Foam::mpm::inflowOutflow> Foam::mpm::inflowOutflow::New
     (
         new inflowOutflow
         (
-            cloudDict.subDict("inflowOutflow"), grid, U, g, soil,
+            subDictOf(cloudDict, "inflowOutflow"), grid, U, g, soil,
             strictKeywords
         )
     );

@@ -6,7 +6,7 @@ License
 #include "inlet.H"
 #include "dictionaryEntries.H"
 #include "timeFunction.H"
-#include "FlatOutput.H"
+#include "listed.H"
 #include "TableBase.H"
 #include "SubField.H"
 #include "volFields.H"
@@ -21,6 +21,25 @@ using namespace Foam;
 //- Part of a velocity or a cell that is put down to rounding
 const scalar rounding = 1e-6;
 
+
+//- Water is nearly incompressible: no flow comes near to its speed of sound
+void checkSpeed
+(
+    const dictionary& dict,
+    const char* keyword,
+    const scalar speed,
+    const scalar time
+)
+{
+    if (!(speed <= mpm::maxFlowSpeed))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " of inlet " << dict.dictName()
+            << " gives " << speed << " m/s at time " << time << '.' << nl
+            << "    Allowed: up to " << mpm::maxFlowSpeed
+            << " m/s, the speed of sound of water" << exit(FatalIOError);
+    }
+}
 
 } // End anonymous namespace
 
@@ -218,6 +237,7 @@ Foam::scalar Foam::mpm::inlet::speedOf
             << "    Allowed: velocities along " << normal_
             << ", into the domain, or zero" << exit(FatalIOError);
     }
+    checkSpeed(dict_, "velocity", normal, time);
     return normal;
 }
 
@@ -235,6 +255,7 @@ Foam::scalar Foam::mpm::inlet::speedOf
             << " at time " << time << '.' << nl
             << "    Allowed: discharge >= 0" << exit(FatalIOError);
     }
+    checkSpeed(dict_, "discharge", discharge/depth_, time);
     return discharge/depth_;
 }
 
@@ -300,7 +321,7 @@ Foam::mpm::inlet::inlet
                  + U.name()
                )
             << '.' << nl << "    Allowed: patches of type fixedValue in "
-            << U.name() << ": " << flatOutput(fixed) << exit(FatalIOError);
+            << U.name() << ": " << listed(fixed) << exit(FatalIOError);
     }
 
     readFlow();
@@ -309,6 +330,7 @@ Foam::mpm::inlet::inlet
     if (soil && dict.found("voidRatio"))
     {
         voidRatio_ = readPositive(dict, "voidRatio", dimless);
+        warnUnusual(dict, {{"voidRatio", 0.2, GREAT, "packings of grains"}});
     }
 
     const label nPoints = label
@@ -348,16 +370,20 @@ Foam::mpm::inlet::inlet
     makeLayer(grid, nPoints);
 
     // What can be checked before the run
-    if (velocity_.valid())
+    auto checkTable = [&](const auto& f)
     {
-        const tmp<vectorField> values(tableValues(*velocity_));
-        for (const vector& v : values()) speedOf(v, 0);
-    }
-    else
-    {
-        const tmp<scalarField> values(tableValues(*discharge_));
-        for (const scalar q : values()) speedOf(q, 0);
-    }
+        using Type =
+            typename std::decay_t<decltype(f)>::returnType;
+        const auto* table =
+            dynamic_cast<const Function1Types::TableBase<Type>*>(&f);
+        if (!table) return;
+
+        const tmp<scalarField> times(table->x());
+        const tmp<Field<Type>> values(table->y());
+        forAll(values(), i) speedOf(values()[i], times()[i]);
+    };
+    if (velocity_.valid()) checkTable(*velocity_);
+    else checkTable(*discharge_);
     volumeSpeed(grid.mesh().time().value());
 }
 

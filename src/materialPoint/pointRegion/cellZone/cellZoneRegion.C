@@ -5,6 +5,7 @@ License
 
 #include "cellZoneRegion.H"
 #include "dictionaryEntries.H"
+#include "listed.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -37,7 +38,8 @@ Foam::mpm::cellZoneRegion::cellZoneRegion
     {
         FatalIOErrorInFunction(dict)
             << "keyword zone: there is no cellZone " << zone << nl
-            << "    Zones of the mesh: " << mesh.cellZones().names()
+            << "    Allowed, zones of the mesh: "
+            << listed(mesh.cellZones().names())
             << exit(FatalIOError);
     }
     inZone_.set(mesh.cellZones()[zonei]);

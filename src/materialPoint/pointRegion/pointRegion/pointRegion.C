@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "pointRegion.H"
 
 namespace Foam
@@ -58,7 +58,7 @@ Foam::autoPtr<Foam::mpm::pointRegion> Foam::mpm::pointRegion::New
         FatalIOErrorInFunction(dict)
             << "keyword type: unknown region " << name << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
     return found()(mesh, dict, strictKeywords);

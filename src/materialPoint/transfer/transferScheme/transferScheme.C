@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "transferScheme.H"
 #include <utility>
 
@@ -37,7 +37,7 @@ Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
         FatalIOErrorInFunction(cloudDict)
             << "keyword transfer: unknown transfer scheme " << name << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
 

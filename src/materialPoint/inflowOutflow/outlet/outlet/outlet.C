@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "outlet.H"
 
 namespace Foam
@@ -40,7 +40,7 @@ Foam::autoPtr<Foam::mpm::outlet> Foam::mpm::outlet::New
         FatalIOErrorInFunction(dict)
             << "keyword type: unknown outlet " << type << nl
             << "    Valid names: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
     return found()(name, dict, U, strictKeywords);

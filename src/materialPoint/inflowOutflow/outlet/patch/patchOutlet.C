@@ -3,7 +3,7 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "FlatOutput.H"
+#include "listed.H"
 #include "patchOutlet.H"
 #include "dictionaryEntries.H"
 #include "volFields.H"
@@ -52,7 +52,7 @@ Foam::mpm::patchOutlet::patchOutlet
             << "keyword patch of outlet " << name << " is " << patchName_
             << ", which is no opening." << nl
             << "    Allowed: patches of type zeroGradient or inletOutlet in "
-            << U.name() << ": " << flatOutput(openings) << exit(FatalIOError);
+            << U.name() << ": " << listed(openings) << exit(FatalIOError);
     }
     if (dict.found("waterLevel"))
     {

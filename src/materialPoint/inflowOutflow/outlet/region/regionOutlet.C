@@ -30,7 +30,7 @@ Foam::mpm::regionOutlet::regionOutlet
     outlet(name, dict),
     region_
     (
-        pointRegion::New(U.mesh(), dict.subDict("region"), strictKeywords)
+        pointRegion::New(U.mesh(), subDictOf(dict, "region"), strictKeywords)
     )
 {
     checkKeywords(dict, {"type", "region"}, strictKeywords);
