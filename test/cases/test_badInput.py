@@ -174,15 +174,74 @@ def swap(old, new):
     return replace("constant/materialPointProperties", rf"\b{old}\b", new)
 
 
+def farAway(setup):
+    """Cells of 6.25 mm 4200 km from the origin, in ascii"""
+    setup.origin, setup.h = (4.2e6, 0, 0), 0.00625
+    setup.control.update(writeFormat="ascii", writePrecision=10)
+    setup.regions["column"] = hydrostatic((4.2e6, 0), (4.2e6 + 0.1, 0.1))
+
+
+def brokenOwner(face, cell):
+    """The file owner of the mesh: one face of another cell; without a face,
+    so many of the last ones are missing"""
+    def edit(case):
+        case.change(control={"writeFormat": "ascii"})
+        case.run("blockMesh")
+        path = case.path/"constant"/"polyMesh"/"owner"
+        lines = path.read_text().splitlines()
+        first, last = lines.index("(") + 1, lines.index(")")
+        cells = lines[first:last]
+        if face is None:
+            cells = cells[:-cell]
+            lines[first - 2] = str(len(cells))
+        else:
+            cells[face] = str(cell)
+        path.write_text("\n".join(lines[:first] + cells + lines[last:]) + "\n")
+    return edit
+
+
 # --- the cases ------------------------------------------------------------
 
 CASES = [
     # Mesh
     Bad("graded", {
         "mesh": MESH, "cell": r"cell: \d+ at \(", "size": r"extent \(",
-        "allowed": r"(?s)axis-aligned hexahedra.*\(0\.0\d+ 0\.02 0\.02\)"},
+        "allowed": r"(?s)axis-aligned hexahedra.*\(0\.0\d+ 0\.02 0\.02\)",
+        "cells": "Along x: 25 cells of a size that grows or shrinks from 0 to"
+                 " 0.5 .edge x of block 0 in blockMeshDict",
+        "spacing": r"within 1 %: 0\.02, with the numbers of cells x \(25\)"
+                   r" y \(20\)"},
         edit=replace("system/blockMeshDict", r"simpleGrading \(1 1 1\)",
                      "simpleGrading (2 1 1)")),
+    Bad("blocksOfOtherLengths", {
+        "mesh": MESH,
+        "runs": r"Along x: 10 cells of 0\.021 from 0 to 0\.21 "
+                r"\(edge x of blocks 0 1 2 in blockMeshDict\) "
+                r"4 cells of 0\.0175 from 0\.21 to 0\.28 "
+                r"\(edge x of blocks 3 4 in blockMeshDict\) "
+                r"11 cells of 0\.02 from 0\.28 to 0\.5 "
+                r"\(edge x of blocks 5 6 7 in blockMeshDict\)",
+        "spacing": r"spacing that fits all these lengths within 1 %: 0\.0\d+,"
+                   r" with the numbers of cells x \([\d ]+\) y \(\d+\)"},
+        setup=lambda s: s.solid.append(((10, 5), (14, 9))),
+        edit=replace("system/blockMeshDict", r"\(0\.2 ", "(0.21 ", count=0)),
+    Bad("digitsOfTheMesh", {
+        "mesh": MESH, "cause": "Only digits keep it from being uniform: along x"
+        r", at 4\.2e\+06 m, the 10 digits of the file are steps of 0\.001 m",
+        "allowed": "writeFormat binary.*origin of the coordinates"},
+        setup=farAway),
+    Bad("ownerOfNoCell", {
+        "mesh": MESH, "file": r"file owner gives face 10 to cell 999999",
+        "allowed": "without gaps"}, edit=brokenOwner(10, 999999)),
+    Bad("ownerNegative", {
+        "mesh": MESH, "file": r"file owner gives face 10 to cell -1",
+        "allowed": "without gaps"}, edit=brokenOwner(10, -1)),
+    Bad("ownerOfAnotherCell", {
+        "mesh": MESH, "cell": r"\b499 has 3 faces|not uniform"},
+        edit=brokenOwner(-1, 3)),
+    Bad("ownerTooShort", {
+        "mesh": MESH, "file": r"file owner has \d+ faces, but boundary and"
+        r" neighbour have \d+"}, edit=brokenOwner(None, 5)),
     Bad("sheared", {
         "mesh": MESH, "cell": r"cell: \d+ at \(", "size": r"extent \(",
         "allowed": r"(?s)axis-aligned hexahedra"}, edit=sheared),
@@ -198,9 +257,22 @@ CASES = [
         "type": "type empty", "place": r"face at \(",
         "allowed": "-patch"}, edit=subsetHole),
     Bad("wallOfOneCell", {
-        "mesh": MESH, "cell": r"cell \d+ at \(", "what": "one cell thick",
+        "mesh": MESH, "what": "one cell thick, at 1 place",
+        "place": r"thin in direction x, from \(0\.28 0 0\) to"
+                 r" \(0\.3 0\.12 0\.02\)",
         "allowed": "at least two cells"},
         setup=lambda s: s.solid.append(((14, 0), (15, 6)))),
+    Bad("threeWallsOfOneCell", {
+        "mesh": MESH, "what": "one cell thick, at 3 places",
+        "first": r"direction x, from \(0\.28 0 0\) to"
+                 r" \(0\.3 0\.12 0\.02\)",
+        "second": r"direction y, from \(0\.34 0\.12 0\) to"
+                  r" \(0\.42 0\.14 0\.02\)",
+        "third": r"direction x, from \(0\.22 0\.24 0\) to"
+                 r" \(0\.24 0\.4 0\.02\)",
+        "allowed": "at least two cells"},
+        setup=lambda s: s.solid.extend([
+            ((14, 0), (15, 6)), ((17, 6), (21, 7)), ((11, 12), (12, 20))])),
     Bad("wallWithoutThickness", {
         "mesh": MESH, "patch": "patch plate", "place": r"at \(",
         "allowed": "at least two"}, edit=baffles),
@@ -569,7 +641,8 @@ def testRateOfAnotherTransfer(tmp_path, figures, transfer, told):
 
 @pytest.mark.parametrize("how", ["smaller", "obstacle"])
 def testMeshChangedAfterwards(tmp_path, figures, how):
-    """Points that lie in no cell any more"""
+    """Points that lie in no cell any more; with the record of the mesh (see
+    test_changedCase.py) and without it"""
     case = base().write(tmp_path/"case").prepare()
     if how == "smaller":
         case.setup.cells = (8, 20)
@@ -578,8 +651,50 @@ def testMeshChangedAfterwards(tmp_path, figures, how):
     case.rewrite()
     case.run("blockMesh")
     refused(figures, case.solve(check=False), {
+        "file": r"0/uniform/materialPoints", "mesh": r"mesh/cells was 500, is",
+        "allowed": "(?i)setMaterialPoints"})
+
+    replace("0/uniform/materialPoints", r"\ncase\n", "\nolder\n")(case)
+    refused(figures, case.solve(check=False), {
         "file": r"0/lagrangian/water", "point": r"point \d+ at \(",
         "allowed": "(?i)setMaterialPoints"})
+
+
+@pytest.mark.parametrize("format_", ["stl", "obj"])
+def testSurfaceFarFromTheOrigin(tmp_path, figures, format_):
+    """OpenFOAM reads STL in single precision: said where it matters"""
+    at = 4.2e6
+    setup = base()
+    setup.origin = (at, 0, 0)
+    setup.regions = {"column": {"type": "surface",
+                                "file": f'"box.{format_}"'}}
+    case = setup.write(tmp_path/"case")
+    case.run("blockMesh")
+    corners = [(at + 0.2*(i & 1), 0.2*(i >> 1 & 1), 0.4*(i >> 2) - 0.1)
+               for i in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3),
+             (0, 4, 6, 2), (1, 3, 7, 5)]
+    triangles = [t for a, b, c, d in quads for t in [(a, b, c), (a, c, d)]]
+    if format_ == "obj":
+        text = "".join("v %.12g %.12g %.12g\n" % c for c in corners) + "".join(
+            "f %d %d %d\n" % tuple(i + 1 for i in t) for t in triangles)
+    else:
+        text = "solid box\n" + "".join(
+            "facet normal 0 0 0\nouter loop\n" + "".join(
+                "vertex %.12g %.12g %.12g\n" % corners[i] for i in t)
+            + "endloop\nendfacet\n" for t in triangles) + "endsolid box\n"
+    folder = case.path/"constant"/"triSurface"
+    folder.mkdir()
+    (folder/f"box.{format_}").write_text(text)
+    result = case.run("setMaterialPoints", check=False)
+    if format_ == "stl":
+        refused(figures, result, {
+            "file": r"box\.stl", "what": "not closed",
+            "cause": r"single precision: at 4\.2\d*e\+06 m it holds steps of"
+                     r" 0\.5\d* m only", "allowed": "format obj"})
+    else:
+        figures.equal("exit status", result.status, 0)
+        figures.equal("points", len(case.points("0").id), 900)
 
 
 def testPositiveVolume(tmp_path, figures):

@@ -6,6 +6,7 @@ License
 #include "figures.H"
 #include "testMesh.H"
 #include "backgroundGrid.H"
+#include "latticeDiagnosis.H"
 #include <cmath>
 
 using namespace Foam;
@@ -208,6 +209,51 @@ TEST_CASE("refused: graded mesh")
 }
 
 
+TEST_CASE("digits of coordinates")
+{
+    equal
+    (
+        "of 4200000.006", latticeDiagnosis::digits(scalarList(1, 4200000.006)),
+        10
+    );
+    equal
+    (
+        "of 0.1 and 0.25",
+        latticeDiagnosis::digits(scalarList({0.1, 0.25})), 2
+    );
+    equal("of 1/3", latticeDiagnosis::digits(scalarList(1, 1.0/3)), 16);
+    atMost
+    (
+        "unit of 4200000.006: error",
+        mag(latticeDiagnosis::unit(4200000.006, 10)/1e-3 - 1), 1e-12
+    );
+}
+
+
+TEST_CASE("refused: two sizes of cells")
+{
+    // 0.5 to the left, 0.28 to the right of 0.2: 14 cells of 0.0557 come
+    // nearest to both, 9 and 5
+    meshPlan plan = plan2D(7, 4);
+    plan.map = [](const point& x)
+    {
+        return point
+        (
+            x.x() > 0.2 ? 0.2 + 1.4*(x.x() - 0.2) : x.x(), x.y(), x.z()
+        );
+    };
+    contains
+    (
+        refusal(plan),
+        {
+            "Along x", "5 cells of 0.1 from -0.3 to 0.2",
+            "2 cells of 0.14 from 0.2 to 0.48",
+            "fits all these lengths within 1 % along x: 0.05571", "x (9 5)"
+        }
+    );
+}
+
+
 TEST_CASE("refused: sheared mesh")
 {
     meshPlan plan = plan2D(4, 4);
@@ -254,18 +300,17 @@ TEST_CASE("refused: wall one cell thick")
 {
     meshPlan plan = plan2D(8, 6);
     plan.present = [](int i, int j, int) { return !(i == 4 && j >= 3); };
-    // Beside it: cell 3 of row 3
     contains
     (
         refusal(plan),
-        {"wall one cell thick", "next to cell 27", "direction x"}
+        {"walls one cell thick, at 1 place", "direction x, from (0.1 1.6"}
     );
 
     plan.present = [](int i, int j, int) { return !(j == 2 && i < 5); };
     contains
     (
         refusal(plan),
-        {"wall one cell thick", "next to cell 8", "direction y"}
+        {"walls one cell thick, at 1 place", "direction y, from (-0.3 1.4"}
     );
 
     // Two cells are a wall

@@ -49,6 +49,8 @@ int main(int argc, char *argv[])
 
     #include "createTime.H"
 
+    mpm::lattice::checkFiles(runTime);
+
     fvMesh mesh
     (
         IOobject
@@ -93,21 +95,7 @@ int main(int argc, char *argv[])
 
         points.updateMeshFields();
         points.cost().start("output");
-        const bool written = runTime.write();
-        if (runTime.writeTime())
-        {
-            if (returnReduce(!written, orOp<bool>()))
-            {
-                FatalErrorInFunction
-                    << "time " << runTime.timeName() << " was not written"
-                    << (written ? " on another rank" : "")
-                    << ". Is the disk full, or the case read-only?" << nl
-                    << "    What was written before is whole: free space, and"
-                    << " start again from the latest time."
-                    << exit(FatalError);
-            }
-            points.writeState();
-        }
+        points.writeTime(runTime);
         points.cost().stop();
 
         points.log(runTime);

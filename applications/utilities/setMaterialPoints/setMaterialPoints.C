@@ -108,6 +108,7 @@ Usage
 #include "caseLock.H"
 #include "labelIOList.H"
 #include "localIOdictionary.H"
+#include "machineMemory.H"
 #include "materialPointSystem.H"
 #include "cellZoneRegion.H"
 #include "pointRegion.H"
@@ -150,6 +151,50 @@ static bool holds
         y[cells.axis(d)] += part[d]*cells.spacing(d);
     }
     return region.contains(y, celli);
+}
+
+
+//- Bytes of a point while it is placed and written, beside its columns
+static const scalar bytesOfPlacing = 250;
+
+
+//- An error if a region holds more points than there is memory for. Collective.
+static void checkMemory
+(
+    const mpm::materialPointCloud& cloud,
+    const mpm::pointRegion& region,
+    const dictionary& dict
+)
+{
+    const scalar n = mpm::readBounded
+    (
+        dict, "pointsPerDirection", dimless, 1, 16, true, true
+    );
+
+    // Cells whose centres it holds
+    scalar nCells = 0;
+    const vectorField& centres = cloud.grid().mesh().cellCentres();
+    const boundBox bounds(region.bounds());
+    forAll(centres, celli)
+    {
+        if
+        (
+            bounds.contains(centres[celli])
+         && region.contains(centres[celli], celli)
+        )
+        {
+            ++nCells;
+        }
+    }
+    reduce(nCells, sumOp<scalar>());
+
+    mpm::machineMemory::check
+    (
+        region.dict(),
+        cloud.name(),
+        nCells*std::pow(n, cloud.grid().nDim()),
+        cloud.points().bytesPerPoint() + bytesOfPlacing
+    );
 }
 
 
@@ -392,6 +437,7 @@ static std::vector<placedRegion> place
         (
             mpm::pointRegion::New(mesh, entries, strict)
         );
+        checkMemory(cloud, *region, dict);
         const regionPoints filled(fill(cloud.grid(), *region, dict, taken));
 
         const label n = returnReduce(filled.position.size(), sumOp<label>());
@@ -1211,12 +1257,7 @@ static void writeWeights
         Info<< "Cloud " << cloud.name() << ": " << cloud.globalSize()
             << " points of weight " << weight << nl;
     }
-    if (!weights.write())
-    {
-        FatalErrorInFunction
-            << "cannot write " << weights.objectPath() << "; is the disk full?"
-            << exit(FatalError);
-    }
+    points.writeOrStop([&] { return weights.write(); }, weights.objectPath());
     Info<< nl << "Written " << weights.name() << " to "
         << mesh.time().timePath() << nl << nl << "End\n" << endl;
 }
@@ -1315,12 +1356,7 @@ static void writeDecomposition
         Info<< "Cloud " << points.clouds()[k].name() << ": points of the ranks "
             << mpm::listed(ofRank) << nl;
     }
-    if (!cellRank.write())
-    {
-        FatalErrorInFunction
-            << "cannot write " << cellRank.objectPath()
-            << "; is the disk full?" << exit(FatalError);
-    }
+    points.writeOrStop([&] { return cellRank.write(); }, cellRank.objectPath());
     Info<< nl << "Written " << cellRank.objectPath() << nl << nl << "End\n"
         << endl;
 }
@@ -1364,6 +1400,8 @@ int main(int argc, char *argv[])
     }
 
     #include "createTime.H"
+
+    mpm::lattice::checkFiles(runTime);
 
     fvMesh mesh
     (

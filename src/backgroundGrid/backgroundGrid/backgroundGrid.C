@@ -8,6 +8,8 @@ License
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "bitSet.H"
+#include <algorithm>
+#include <vector>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -180,6 +182,10 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
 
 void Foam::mpm::backgroundGrid::checkWallThickness() const
 {
+    // Cells that are left out, by lattice index, and the direction in which
+    // there are cells on both sides
+    DynamicList<index3> thin;
+    DynamicList<label> direction;
     forAll(boxCell_, celli)
     {
         const label c = boxCell_[celli];
@@ -191,18 +197,100 @@ void Foam::mpm::backgroundGrid::checkWallThickness() const
              && cellRank_[c + 2*stride_[d]] != missing
             )
             {
-                FatalErrorInFunction
-                    << "the mesh in "
-                    << mesh().pointsInstance()/mesh().meshDir()
-                    << " has a wall one cell thick next to cell " << celli
-                    << " at " << mesh().cellCentres()[celli]
-                    << ", direction " << vector::componentNames[lattice_.axis(d)]
-                    << '.' << nl << "    Both sides mirror the flow at the"
-                    << " wall; walls need at least two cells."
-                    << exit(FatalError);
+                index3 i = lattice_.cellIndex(celli);
+                ++i[d];
+                thin.append(i);
+                direction.append(d);
             }
         }
     }
+    if (!returnReduce(thin.size(), sumOp<label>())) return;
+
+    // All places, of all ranks
+    List<List<index3>> allThin(Pstream::nProcs());
+    List<labelList> allDirections(Pstream::nProcs());
+    allThin[Pstream::myProcNo()] = thin;
+    allDirections[Pstream::myProcNo()] = direction;
+    Pstream::gatherList(allThin);
+    Pstream::scatterList(allThin);
+    Pstream::gatherList(allDirections);
+    Pstream::scatterList(allDirections);
+
+    // Walls: neighbours of the same direction, as boxes
+    struct wall { label direction; index3 lower; index3 upper; };
+    std::vector<wall> walls;
+    forAll(allThin, rank)
+    {
+        forAll(allThin[rank], k)
+        {
+            wall w
+            {
+                allDirections[rank][k], allThin[rank][k], allThin[rank][k]
+            };
+
+            // Walls that it joins are taken into it
+            for (size_t other = 0; other < walls.size(); )
+            {
+                const wall& o = walls[other];
+                bool joins = o.direction == w.direction;
+                for (label d = 0; joins && d < 3; ++d)
+                {
+                    const label reach = d == w.direction ? 0 : 1;
+                    joins =
+                        o.lower[d] <= w.upper[d] + reach
+                     && w.lower[d] <= o.upper[d] + reach;
+                }
+                if (!joins)
+                {
+                    ++other;
+                    continue;
+                }
+                for (label d = 0; d < 3; ++d)
+                {
+                    w.lower[d] = min(w.lower[d], o.lower[d]);
+                    w.upper[d] = max(w.upper[d], o.upper[d]);
+                }
+                walls[other] = walls.back();
+                walls.pop_back();
+                other = 0;
+            }
+            walls.push_back(w);
+        }
+    }
+    std::sort
+    (
+        walls.begin(), walls.end(),
+        [](const wall& a, const wall& b)
+        {
+            for (label d = 2; d >= 0; --d)
+            {
+                if (a.lower[d] != b.lower[d]) return a.lower[d] < b.lower[d];
+            }
+            return a.direction < b.direction;
+        }
+    );
+
+    FatalErrorInFunction
+        << "the mesh in " << mesh().pointsInstance()/mesh().meshDir()
+        << " has walls one cell thick, at " << label(walls.size())
+        << (walls.size() == 1 ? " place:" : " places:") << nl;
+    for (const wall& w : walls)
+    {
+        point from(Zero), to(Zero);
+        for (label d = 0; d < 3; ++d)
+        {
+            const label a = lattice_.axis(d);
+            from[a] = lattice_.origin(d) + w.lower[d]*lattice_.spacing(d);
+            to[a] = lattice_.origin(d) + (w.upper[d] + 1)*lattice_.spacing(d);
+        }
+        FatalError
+            << "    thin in direction "
+            << vector::componentNames[lattice_.axis(w.direction)]
+            << ", from " << from << " to " << to << nl;
+    }
+    FatalError
+        << "    Both sides mirror the flow at the wall; walls need at least two"
+        << " cells." << exit(FatalError);
 }
 
 

@@ -4,11 +4,15 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "lattice.H"
+#include "latticeDiagnosis.H"
 #include "SubField.H"
 #include "emptyPolyPatch.H"
 #include "wedgePolyPatch.H"
 #include "cyclicPolyPatch.H"
 #include "processorPolyPatch.H"
+#include "Time.H"
+#include "labelIOList.H"
+#include "polyBoundaryMeshEntries.H"
 #include "PstreamReduceOps.H"
 #include <unordered_set>
 
@@ -213,7 +217,9 @@ void Foam::mpm::lattice::findCells()
             FatalError
                 << expected.x() << ' ' << expected.y() << ' ' << expected.z()
                 << "). Blocks may be missing; grading, shear and polyhedra"
-                << " are not admitted." << exit(FatalError);
+                << " are not admitted."
+                << latticeDiagnosis(mesh_).text().c_str()
+                << exit(FatalError);
         }
     }
 
@@ -278,6 +284,90 @@ Foam::mpm::lattice::lattice(const polyMesh& mesh)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::lattice::checkFiles(const Time& runTime)
+{
+    auto file = [&](const word& name, const IOobject::readOption read)
+    {
+        return IOobject
+        (
+            name,
+            runTime.findInstance(polyMesh::meshSubDir, "faces"),
+            polyMesh::meshSubDir,
+            runTime,
+            read,
+            IOobject::NO_WRITE,
+            false
+        );
+    };
+
+    // Meshes of an older format have one file of cells instead
+    if (!file("owner", IOobject::MUST_READ).typeHeaderOk<labelIOList>(true))
+    {
+        return;
+    }
+    const labelIOList owner(file("owner", IOobject::MUST_READ));
+    const labelIOList neighbour(file("neighbour", IOobject::READ_IF_PRESENT));
+    const polyBoundaryMeshEntries patches
+    (
+        file("boundary", IOobject::MUST_READ)
+    );
+
+    label nFaces = neighbour.size();
+    for (const entry& e : patches)
+    {
+        nFaces = max
+        (
+            nFaces,
+            e.dict().get<label>("startFace") + e.dict().get<label>("nFaces")
+        );
+    }
+    if (nFaces != owner.size())
+    {
+        FatalErrorInFunction
+            << "the mesh in " << owner.path() << " is broken: file owner has "
+            << owner.size() << " faces, but boundary and neighbour have "
+            << nFaces << '.' << nl << "    Make the mesh again."
+            << exit(FatalError);
+    }
+
+    // Cells are numbered without gaps, so that each has faces; there are less
+    // cells than faces
+    labelList nCellFaces
+    (
+        owner.empty() ? 0 : min(max(owner) + 1, owner.size()), Zero
+    );
+    for (const labelIOList* list : {&owner, &neighbour})
+    {
+        forAll(*list, facei)
+        {
+            const label celli = (*list)[facei];
+
+            if (celli < 0 || celli >= nCellFaces.size())
+            {
+                FatalErrorInFunction
+                    << "the mesh in " << owner.path() << " is broken: file "
+                    << list->name() << " gives face " << facei << " to cell "
+                    << celli << '.' << nl
+                    << "    Allowed: cells from 0 on, without gaps. Make the"
+                    << " mesh again." << exit(FatalError);
+            }
+            ++nCellFaces[celli];
+        }
+    }
+    forAll(nCellFaces, celli)
+    {
+        if (nCellFaces[celli] >= 4) continue;
+        FatalErrorInFunction
+            << "the mesh in " << owner.path() << " is broken: of the cells 0"
+            << " to " << nCellFaces.size() - 1 << " of the files owner and"
+            << " neighbour, " << celli << " has " << nCellFaces[celli]
+            << " faces." << nl
+            << "    Allowed: cells with faces all around. Make the mesh again."
+            << exit(FatalError);
+    }
+}
+
 
 Foam::scalar Foam::mpm::lattice::minSpacing() const
 {

@@ -598,6 +598,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     findWriteIntervals();
     writeTimes_.setSize(writeIntervals_.size(), -GREAT);
     signalSpeed_.setSize(clouds_.size(), 0);
+    record_.addMesh(grid_.cells());
 }
 
 

@@ -14,6 +14,7 @@ License
 #include "waterSoilInteraction.H"
 #include <algorithm>
 #include <fstream>
+#include <sys/statvfs.h>
 
 const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
 
@@ -78,6 +79,73 @@ bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
 }
 
 } // End anonymous namespace
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::materialPointSystem::describeCase() const
+{
+    auto text = [](const bool on) { return word(on ? "yes" : "no"); };
+
+    DynamicList<word> names;
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        dictionary basis, settings;
+        cloud.describe(basis, settings);
+        record_.basis().set(cloud.name(), basis);
+        record_.settings().set(cloud.name(), settings);
+        names.append(cloud.name());
+    }
+    record_.basis().set("clouds", wordList(names));
+
+    // As they are in effect, given or not
+    dictionary mpm(control_);
+    mpm.set("shapeFunction", grid_.shapeFunction());
+    mpm.set("maxCo", maxCo_);
+    mpm.set("smoothing", text(settings_.smoothing));
+    mpm.set("volumeCorrection", text(settings_.volumeCorrection));
+    mpm.set("overlapCorrection", text(settings_.overlapCorrection));
+    mpm.set("sortInterval", settings_.sortInterval);
+    mpm.remove("logInterval");
+    mpm.remove("strictKeywords");
+    record_.settings().set("MPM", mpm);
+
+    if (settings_.coupled)
+    {
+        record_.settings().set
+        (
+            "interaction", properties_.subOrEmptyDict("interaction")
+        );
+    }
+    record_.settings().set("gravity", g_);
+    record_.settings().set
+    (
+        "adjustTimeStep",
+        text
+        (
+            time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
+        )
+    );
+}
+
+
+Foam::dictionary Foam::mpm::materialPointSystem::placement() const
+{
+    const IOobject header
+    (
+        "setMaterialPointsDict",
+        time_.system(),
+        mesh_,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+    if (!IOobject(header).typeHeaderOk<IOdictionary>(true)) return dictionary();
+
+    dictionary result(static_cast<const dictionary&>(IOdictionary(header)));
+    result.set("gravity", g_);
+    return result;
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -169,6 +237,29 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
     }
     const IOdictionary state(header);
 
+    const bool recorded = caseRecord::in(state);
+    bool start = true;
+    if (recorded)
+    {
+        describeCase();
+        record_.checkBasis(state);
+
+        for (const materialPointCloud& cloud : clouds_)
+        {
+            const dictionary& dict = state.subDict(cloud.name());
+            start = start && !dict.lookupOrDefault<label>("stepCount", 0);
+        }
+        if (start) record_.checkPlacement(state, placement());
+        record_.takePlacement(state);
+    }
+    else
+    {
+        Info<< "File " << state.objectPath() << " has no record of the case,"
+            << " as older versions of mpmFoam wrote none:" << nl
+            << "    not compared are mesh, materials and settings of then and"
+            << " now" << nl << endl;
+    }
+
     for (materialPointCloud& cloud : clouds_)
     {
         const dictionary& dict = state.subDict(cloud.name());
@@ -188,6 +279,13 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
         }
     }
     firstStep_ = clouds_[0].stepCount();
+    for (const materialPointCloud& cloud : clouds_) cloud.checkDigits();
+    if (recorded)
+    {
+        // The speed of sound and what follows from it are known now
+        describeCase();
+        record_.reportSettings(state, start);
+    }
 
     if (interaction_.valid())
     {
@@ -211,19 +309,72 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
 }
 
 
+void Foam::mpm::materialPointSystem::writeOrStop
+(
+    const std::function<bool()>& op,
+    const string& what
+) const
+{
+    // A stream that fails ends the run with an error of its own, which does
+    // not say why
+    string failure;
+    bool ok = false;
+    const bool throwing = FatalIOError.throwExceptions();
+    try
+    {
+        ok = op();
+    }
+    catch (const Foam::IOerror& e)
+    {
+        failure = e.message();
+    }
+    FatalIOError.throwExceptions(throwing);
+
+    if (!returnReduce(!ok, orOp<bool>())) return;
+
+    FatalErrorInFunction
+        << "cannot write " << what.c_str() << (ok ? " on another rank" : "")
+        << "; is the disk full, or the case read-only?";
+
+    struct statvfs disk;
+    if (statvfs(time_.path().c_str(), &disk) == 0)
+    {
+        FatalError
+            << " (" << std::floor(1e-6*disk.f_bavail*disk.f_frsize)
+            << " MB are free)";
+    }
+    if (!failure.empty()) FatalError<< nl << "    " << failure.c_str();
+    FatalError
+        << nl << "    What was written before is whole." << exit(FatalError);
+}
+
+
 void Foam::mpm::materialPointSystem::write()
 {
+    record_.setPlacement(placement());
+    for (const materialPointCloud& cloud : clouds_) cloud.checkDigits();
+
     for (materialPointCloud& cloud : clouds_)
     {
         cloud.updateMeshFields();
-        if (!cloud.regIOobject::write() || !cloud.writeMeshFields())
-        {
-            FatalErrorInFunction
-                << "cannot write cloud " << cloud.name() << " to "
-                << time_.timePath() << "; is the disk full?"
-                << exit(FatalError);
-        }
+        writeOrStop
+        (
+            [&]
+            {
+                return cloud.regIOobject::write() && cloud.writeMeshFields();
+            },
+            "cloud " + cloud.name() + " to " + time_.timePath()
+        );
     }
+    writeState();
+}
+
+
+void Foam::mpm::materialPointSystem::writeTime(Time& runTime)
+{
+    if (!runTime.writeTime()) return;
+
+    writeOrStop([&] { return runTime.write(); }, "time " + runTime.timeName());
     writeState();
 }
 
@@ -252,22 +403,19 @@ void Foam::mpm::materialPointSystem::writeState() const
         cloud.writeState(dict);
         state.set(cloud.name(), dict);
     }
+    describeCase();
+    record_.write(state);
 
     state.set("time", time_.value());
 
     // Last of all: its presence says that the time directory is whole
     state.set("complete", true);
 
-    const bool ok = state.regIOobject::write();
+    writeOrStop
+    (
+        [&] { return state.regIOobject::write(); }, state.objectPath()
+    );
     IOstream::defaultPrecision(precision);
-
-    if (!ok)
-    {
-        FatalErrorInFunction
-            << "cannot write " << state.objectPath() << "; is the disk full?"
-            << nl << "    The time directory before it is whole."
-            << exit(FatalError);
-    }
 }
 
 // ************************************************************************* //

@@ -28,9 +28,6 @@ namespace
     //- Distance to the wall of a point that was put back, in cells
     const Foam::scalar wallGap = 1e-9;
 
-    //- Distance behind a wall, in cells, that is put down to rounding
-    const Foam::scalar wallRounding = 1e-6;
-
     //- The file of the velocity of a cloud, which must be there
     Foam::IOobject velocityFile
     (
@@ -142,28 +139,61 @@ void Foam::mpm::materialPointCloud::setCell
 }
 
 
-void Foam::mpm::materialPointCloud::pullFromUpperWall(const label point)
+bool Foam::mpm::materialPointCloud::findCell
+(
+    const label point,
+    const scalar tolerance
+)
 {
     const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
     const index3 i = boxCoordinate(point);
 
-    bool inBox = true;
-    for (label d = 0; d < grid_.nDim(); ++d)
+    // The nearest plane of each direction, if it is near enough, and the cell
+    // on its other side
+    FixedList<scalar, 3> plane;
+    index3 other = i;
+    for (label d = 0; d < nDim; ++d)
     {
-        inBox = inBox && i[d] >= 0 && i[d] < grid_.nNodes(d) - 1;
+        const scalar xi = (x(d)[point] - cells.origin(d))/cells.spacing(d);
+        plane[d] = std::round(xi);
+        if (!(mag(xi - plane[d]) < tolerance)) continue;
+        other[d] += (i[d] + grid_.lower(d) < plane[d] ? 1 : -1);
     }
-    if (inBox && grid_.ownCell(grid_.index(i))) return;
 
-    for (label d = 0; d < grid_.nDim(); ++d)
+    // Its own cell, else the one across a plane, an edge, a corner
+    for (label nPlanes = 0; nPlanes <= nDim; ++nPlanes)
     {
-        scalar& x = points_.column(x_ + d)[point];
-        const scalar xi = (x - cells.origin(d))/cells.spacing(d);
-        const scalar plane = std::round(xi);
-        if (mag(xi - plane) < wallRounding && i[d] >= plane - grid_.lower(d))
+        for (label across = 0; across < (1 << nDim); ++across)
         {
-            x = cells.origin(d) + (plane - wallGap)*cells.spacing(d);
+            index3 j = i;
+            label n = 0;
+            bool inBox = true;
+            for (label d = 0; d < nDim; ++d)
+            {
+                if ((across >> d) & 1)
+                {
+                    ++n;
+                    inBox = inBox && other[d] != i[d];
+                    j[d] = other[d];
+                }
+                inBox = inBox && j[d] >= 0 && j[d] < grid_.nNodes(d) - 1;
+            }
+            if (n != nPlanes || !inBox || !grid_.ownCell(grid_.index(j)))
+            {
+                continue;
+            }
+            for (label d = 0; d < nDim; ++d)
+            {
+                if (j[d] == i[d]) continue;
+                points_.column(x_ + d)[point] = cells.origin(d)
+                  + (plane[d] + (j[d] - i[d])*wallGap)*cells.spacing(d);
+            }
+            setCell(point, j);
+            return true;
         }
     }
+    return false;
 }
 
 

@@ -5,7 +5,11 @@ License
 
 #include "materialPointCloud.H"
 #include "lagrangianGeometry.H"
+#include "machineMemory.H"
+#include "FlatOutput.H"
+#include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
+#include <algorithm>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -13,6 +17,13 @@ namespace
 {
 
 using namespace Foam;
+
+//- Largest unit of the last digit of a position, in cells
+const scalar positionUnit = 1e-3;
+
+//- Distance behind a wall, in cells, that is put down to rounding of numbers
+const scalar binaryRounding = 1e-6;
+
 
 //- Header of a lagrangian field
 IOobject fieldHeader
@@ -70,6 +81,16 @@ bool readValues
     }
     forAll(field, i) set(i, field[i]);
     return true;
+}
+
+
+//- All digits of an id
+std::string idText(const scalar id)
+{
+    OStringStream os;
+    os.precision(16);
+    os << id;
+    return os.str();
 }
 
 
@@ -276,49 +297,45 @@ void Foam::mpm::materialPointCloud::readPoints()
             << "    Run setMaterialPoints first"
             << (Pstream::parRun()
                ? " (in parallel, or before decomposePar)." : ".")
+            << nl << "    If redistributePar wrote this time: it does not carry"
+            << " clouds; use decomposePar and" << nl << "    reconstructPar."
             << exit(FatalError);
     }
 
+    // Beside the columns one field of the widest kind
+    machineMemory::check
+    (
+        dict_, name(), total, points_.bytesPerPoint() + sizeof(tensor)
+    );
     points_.resize(n);
-    if (n)
+    DynamicList<word> newFields;
+    for (const pointStorage::field& f : points_.fields())
     {
-        for (const pointStorage::field& f : points_.fields())
+        if (writtenFields_.size() && !writtenFields_.found(f.name))
         {
-            if (!readField(f))
-            {
-                FatalErrorInFunction
-                    << "file "
-                    << time().timePath()/cloud::prefix/name()/f.name
-                    << " is missing; a restart needs it." << nl
-                    << "    Run setMaterialPoints, or start from another time."
-                    << exit(FatalError);
-            }
+            newFields.append(f.name);
         }
-    }
-
-    // Cells from the exact positions
-    for (label p = 0; p < n; ++p)
-    {
-        pullFromUpperWall(p);
-        const index3 i = boxCoordinate(p);
-        bool inside = true;
-        for (label d = 0; d < grid_.nDim(); ++d)
-        {
-            inside = inside && i[d] >= 0 && i[d] < grid_.nNodes(d) - 1;
-        }
-        if (!inside || !grid_.ownCell(grid_.index(i)))
+        else if (n && !readField(f))
         {
             FatalErrorInFunction
-                << "cloud " << name() << ": point " << p << " at "
-                << position(p)
-                << " in " << time().timePath()/cloud::prefix/name()
-                << " lies outside of the mesh"
-                << (Pstream::parRun() ? " of this rank." : ".") << nl
-                << "    Were mesh or decomposition changed after"
-                << " setMaterialPoints?" << exit(FatalError);
+                << "file " << fileOf(f.name)
+                << " is missing; a restart needs it." << nl
+                << "    Run setMaterialPoints, or start from another time. If"
+                << " redistributePar wrote this time:" << nl
+                << "    it does not carry clouds; use decomposePar and"
+                << " reconstructPar." << exit(FatalError);
         }
-        setCell(p, i);
     }
+    checkPoints();
+
+    // Cells from the exact positions
+    DynamicList<label> strays;
+    for (label p = 0; p < n; ++p)
+    {
+        if (!findCell(p, binaryRounding)) strays.append(p);
+    }
+    gatherStrays(strays);
+    n = size();
     if (open_.valid() && !open_->started())
     {
         scalar maxId = -1;
@@ -328,8 +345,224 @@ void Foam::mpm::materialPointCloud::readPoints()
         }
         open_->start(inside(), maxId);
     }
+    if (newFields.size())
+    {
+        Info<< "Cloud " << name() << ": with the settings of before, points had"
+            << " no " << flatOutput(newFields) << "; it begins here" << nl;
+        beginFields(newFields);
+    }
     findMaxSpeed();
     activate(false);
+}
+
+
+Foam::fileName Foam::mpm::materialPointCloud::fileOf(const word& field) const
+{
+    return time().timePath()/cloud::prefix/name()/field;
+}
+
+
+void Foam::mpm::materialPointCloud::gatherStrays(const labelUList& strays)
+{
+    labelList nStrays(Pstream::nProcs(), Zero);
+    nStrays[Pstream::myProcNo()] = strays.size();
+    Pstream::gatherList(nStrays);
+    Pstream::scatterList(nStrays);
+    if (!sum(nStrays)) return;
+
+    const label nColumns = points_.nColumns();
+    List<scalarList> all(Pstream::nProcs());
+    scalarList& mine = all[Pstream::myProcNo()];
+    mine.resize(strays.size()*nColumns);
+    forAll(strays, i) points_.pack(strays[i], mine.data() + i*nColumns);
+    for (label i = strays.size() - 1; i >= 0; --i) points_.remove(strays[i]);
+
+    auto take = [&](const scalar* columns, const scalar tolerance)
+    {
+        points_.append(columns, 0);
+        const bool found = findCell(points_.size() - 1, tolerance);
+        if (!found) points_.remove(points_.size() - 1);
+        return found;
+    };
+
+    // decomposePar goes by the cells in the file coordinates, which
+    // renumberMesh does not renumber. Each rank takes what is its own.
+    labelList found(sum(nStrays), Zero);
+    if (Pstream::parRun())
+    {
+        Pstream::gatherList(all);
+        Pstream::scatterList(all);
+        label i = 0;
+        for (const scalarList& columns : all)
+        {
+            for (label k = 0; k < columns.size(); k += nColumns)
+            {
+                found[i++] = take(columns.cdata() + k, 0);
+            }
+        }
+        Pstream::listCombineGather(found, plusEqOp<label>());
+        Pstream::listCombineScatter(found);
+        if (sum(found))
+        {
+            Info<< "Cloud " << name() << ": " << sum(found) << " points went to"
+                << " the rank that has their cell. Were the cells renumbered"
+                << " after setMaterialPoints?" << endl;
+        }
+    }
+
+    // What no rank has, ascii files may have brought behind a wall
+    label first = 0;
+    for (label rank = 0; rank < Pstream::myProcNo(); ++rank)
+    {
+        first += nStrays[rank];
+    }
+    string lost;
+    label nLost = 0;
+    forAll(strays, i)
+    {
+        const scalar* columns = mine.cdata() + i*nColumns;
+        if (found[first + i] || take(columns, positionUnit)) continue;
+
+        ++nLost;
+        if (!lost.empty()) continue;
+        points_.append(columns, 0);
+        OStringStream os;
+        os  << "point " << strays[i] << " at " << position(points_.size() - 1);
+        lost = os.str();
+        points_.remove(points_.size() - 1);
+    }
+    if (!returnReduce(nLost, sumOp<label>())) return;
+
+    stringList texts(Pstream::nProcs());
+    texts[Pstream::myProcNo()] = lost;
+    Pstream::gatherList(texts);
+    Pstream::scatterList(texts);
+    label rank = 0;
+    while (texts[rank].empty()) ++rank;
+    FatalErrorInFunction
+        << "cloud " << name() << ": " << returnReduce(nLost, sumOp<label>())
+        << " points in " << time().timePath()/cloud::prefix/name()
+        << " lie outside of the mesh, the first is " << texts[rank].c_str()
+        << (Pstream::parRun() ? " of rank " + Foam::name(rank) : string())
+        << '.' << nl
+        << "    Were mesh or decomposition changed after setMaterialPoints?"
+        << exit(FatalError);
+}
+
+
+void Foam::mpm::materialPointCloud::checkPoints() const
+{
+    const scalar* ids = points_.column(id_);
+
+    for (label p = 0; p < size(); ++p)
+    {
+        if (!(mass()[p] > 0))
+        {
+            FatalErrorInFunction
+                << "cloud " << name() << ", file " << fileOf("mass")
+                << ": point " << p << " (id " << idText(ids[p]).c_str()
+                << ") has the mass " << mass()[p] << " kg." << nl
+                << "    Allowed: mass > 0" << exit(FatalError);
+        }
+        if (ids[p] < 0 || ids[p] != std::floor(ids[p]))
+        {
+            FatalErrorInFunction
+                << "cloud " << name() << ", file " << fileOf("id")
+                << ": point " << p << " has the id "
+                << idText(ids[p]).c_str() << '.' << nl
+                << "    Allowed: 0, 1, 2, ..., each once" << exit(FatalError);
+        }
+    }
+
+    // Each id once, over all ranks: rank id mod n has all points of that id
+    struct place { scalar id; label rank; label point; };
+    std::vector<place> places;
+    places.reserve(size());
+    if (Pstream::parRun())
+    {
+        const label nRanks = Pstream::nProcs();
+        List<DynamicList<scalar>> outgoing(nRanks);
+        List<DynamicList<label>> points(nRanks);
+        for (label p = 0; p < size(); ++p)
+        {
+            const label rank = label(std::fmod(ids[p], scalar(nRanks)));
+            outgoing[rank].append(ids[p]);
+            points[rank].append(p);
+        }
+        PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
+        for (label rank = 0; rank < nRanks; ++rank)
+        {
+            UOPstream to(rank, buffers);
+            to << outgoing[rank] << points[rank];
+        }
+        buffers.finishedSends();
+        for (label rank = 0; rank < nRanks; ++rank)
+        {
+            UIPstream from(rank, buffers);
+            const List<scalar> theirs(from);
+            const labelList theirPoints(from);
+            forAll(theirs, i)
+            {
+                places.push_back(place{theirs[i], rank, theirPoints[i]});
+            }
+        }
+    }
+    else
+    {
+        for (label p = 0; p < size(); ++p)
+        {
+            places.push_back(place{ids[p], 0, p});
+        }
+    }
+    std::sort
+    (
+        places.begin(), places.end(),
+        [](const place& a, const place& b)
+        {
+            return
+                a.id != b.id ? a.id < b.id
+              : a.rank != b.rank ? a.rank < b.rank
+              : a.point < b.point;
+        }
+    );
+    for (size_t i = 1; i < places.size(); ++i)
+    {
+        const place& a = places[i - 1];
+        const place& b = places[i];
+        if (a.id != b.id) continue;
+
+        auto where = [](const place& x)
+        {
+            OStringStream os;
+            os << "point " << x.point;
+            if (Pstream::parRun()) os << " of rank " << x.rank;
+            return os.str();
+        };
+        FatalErrorInFunction
+            << "cloud " << name() << ", file " << fileOf("id") << ": "
+            << where(a).c_str() << " and "
+            << where(b).c_str() << " have the same id "
+            << idText(a.id).c_str() << '.' << nl
+            << "    Allowed: each id once. Ascii files hold ids up to"
+            << " 10^writePrecision only; a file that was merged or edited may"
+            << " have a point twice." << exit(FatalError);
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::describe
+(
+    dictionary& basis,
+    dictionary& settings
+) const
+{
+    basis.set("constitutiveModel", dict_.get<word>("constitutiveModel"));
+
+    settings = dict_;
+    settings.remove("constitutiveModel");
+
+    // The default is a choice, too
+    if (transfer_.valid()) settings.set("transfer", transfer_->type());
 }
 
 
@@ -337,6 +570,7 @@ void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
 {
     stepCount_ = dict.lookupOrDefault<label>("stepCount", 0);
     expectedPoints_ = dict.get<label>("nPoints");
+    writtenFields_ = dict.lookupOrDefault<wordList>("fields", wordList());
     counters_.left.read(dict, "left");
 
     // A global sum; one rank carries it on
@@ -358,6 +592,9 @@ void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
 void Foam::mpm::materialPointCloud::writeState(dictionary& dict) const
 {
     dict.set("nPoints", globalSize());
+    wordList names(points_.fields().size());
+    forAll(names, i) names[i] = points_.fields()[i].name;
+    dict.set("fields", names);
     dict.set("stepCount", stepCount_);
     counters_.left.write(dict, "left");
     dict.set
@@ -409,8 +646,90 @@ void Foam::mpm::materialPointCloud::writeObjects(objectRegistry& obr) const
 }
 
 
+Foam::label Foam::mpm::materialPointCloud::neededDigits(string& why) const
+{
+    // Rounding of a mass by 5e-6 of it
+    label digits = 6;
+    why = "masses";
+
+    // The digit of a number before its point, counted from one
+    auto order = [](const scalar x)
+    {
+        return x > 0 ? label(std::floor(std::log10(x))) + 1 : label(1);
+    };
+
+    const boundBox domain(mesh_.points(), true);
+    const scalar h = grid_.cells().minSpacing();
+    scalar farthest = 0;
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        const label c = grid_.cells().axis(d);
+        farthest = max
+        (
+            farthest, max(mag(domain.min()[c]), mag(domain.max()[c]))
+        );
+    }
+    const label forPositions =
+        order(farthest) + label(std::ceil(-std::log10(positionUnit*h)));
+    if (forPositions > digits)
+    {
+        digits = forPositions;
+        OStringStream os;
+        os  << "positions at up to " << farthest << " m in cells of " << h
+            << " m";
+        why = os.str();
+    }
+
+    scalar maxId = 0;
+    for (label p = 0; p < size(); ++p)
+    {
+        maxId = max(maxId, points_.column(id_)[p]);
+    }
+    reduce(maxId, maxOp<scalar>());
+    if (order(maxId) > digits)
+    {
+        digits = order(maxId);
+        why = "ids up to " + idText(maxId);
+    }
+    return digits;
+}
+
+
+void Foam::mpm::materialPointCloud::checkDigits() const
+{
+    if (time().writeFormat() != IOstream::ASCII) return;
+
+    string why;
+    const label needed = neededDigits(why);
+    const label given = IOstream::defaultPrecision();
+    if (given >= needed) return;
+
+    FatalIOErrorInFunction(time().controlDict())
+        << "keyword writePrecision is " << given << ", with writeFormat ascii:"
+        << " the points of cloud " << name() << nl
+        << "    are not held by so few digits, because of " << why.c_str()
+        << '.' << nl << "    Allowed: writePrecision >= " << needed
+        << ", or writeFormat binary" << exit(FatalIOError);
+}
+
+
 bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
 {
+    // The start was checked; ids grow, and controlDict may change in a run
+    const unsigned given = IOstream::defaultPrecision();
+    if (MPM_WRITE_FORMAT == IOstream::ASCII)
+    {
+        string why;
+        const unsigned needed = neededDigits(why);
+        if (needed > given)
+        {
+            IOstream::defaultPrecision(needed);
+            Info<< "Cloud " << name() << ": written with " << needed
+                << " digits, not with writePrecision " << given
+                << ", because of " << why.c_str() << nl << endl;
+        }
+    }
+
     pointField position;
     labelList cell;
     geometry(position, cell);
@@ -436,6 +755,7 @@ bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
             ok = writeField(field, *this, values(), MPM_WRITE_ARGUMENTS) && ok;
         }
     );
+    IOstream::defaultPrecision(given);
     return ok;
 }
 

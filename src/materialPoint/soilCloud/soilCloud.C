@@ -60,7 +60,26 @@ void Foam::mpm::soilCloud::findWaveSpeed()
 }
 
 
+void Foam::mpm::soilCloud::beginSmoothing(const label first, const label last)
+{
+    if (compression_ < 0) return;
+
+    scalar* own = points_.column(compression_) + first;
+    model_->elasticCompression(modelPoints(first, last), own);
+    std::copy
+    (
+        own, own + (last - first), points_.column(compressionMean_) + first
+    );
+}
+
+
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::soilCloud::beginFields(const wordList& names)
+{
+    if (names.found("compressionMean")) beginSmoothing(0, size());
+}
+
 
 void Foam::mpm::soilCloud::derivedFields
 (
@@ -261,16 +280,7 @@ void Foam::mpm::soilCloud::setState
     List<scalarField> whole(nStress, scalarField(volume.size()));
     forAll(whole, k) s.wholeStress[k] = whole[k].data();
     model_->initialise(grid_.nDim(), s);
-    if (compression_ >= 0)
-    {
-        // The start state counts as smooth
-        scalar* own = points_.column(compression_) + first;
-        model_->elasticCompression(s, own);
-        std::copy
-        (
-            own, own + s.n, points_.column(compressionMean_) + first
-        );
-    }
+    beginSmoothing(first, first + volume.size());
 }
 
 
@@ -429,8 +439,34 @@ void Foam::mpm::soilCloud::readPoints()
 {
     materialPointCloud::readPoints();
 
+    for (label p = 0; p < size(); ++p)
+    {
+        if (voidRatio()[p] > 0) continue;
+        FatalErrorInFunction
+            << "file " << fileOf("voidRatio") << ": point " << p
+            << " has the void ratio " << voidRatio()[p] << '.' << nl
+            << "    Allowed: voidRatio > 0" << exit(FatalError);
+    }
+
     // The state file has what the last step found
     if (waveSpeedSqr_ == 0) findWaveSpeed();
+}
+
+
+void Foam::mpm::soilCloud::describe
+(
+    dictionary& basis,
+    dictionary& settings
+) const
+{
+    materialPointCloud::describe(basis, settings);
+
+    basis.set("rhoS", model_->rhoS());
+    basis.set("d", model_->d());
+    basis.set("e0", model_->e0());
+
+    dictionary& coeffs = settings.subDict(model_->type() + "Coeffs");
+    for (const char* keyword : {"rhoS", "d", "e0"}) coeffs.remove(keyword);
 }
 
 

@@ -523,6 +523,31 @@ void Foam::mpm::waterCloud::readPoints()
 }
 
 
+void Foam::mpm::waterCloud::describe
+(
+    dictionary& basis,
+    dictionary& settings
+) const
+{
+    materialPointCloud::describe(basis, settings);
+
+    basis.set("rho0", fluid_.rho0());
+    basis.set("gamma", fluid_.gamma());
+
+    // If it is auto, the state file says what it is
+    if (fluid_.soundSpeed() > 0) basis.set("soundSpeed", fluid_.soundSpeed());
+
+    dictionary& coeffs = settings.subDict
+    (
+        word(weaklyCompressibleNewtonian::typeName) + "Coeffs"
+    );
+    for (const char* keyword : {"rho0", "gamma", "soundSpeed"})
+    {
+        coeffs.remove(keyword);
+    }
+}
+
+
 void Foam::mpm::waterCloud::readState(const dictionary& dict)
 {
     materialPointCloud::readState(dict);

@@ -7,6 +7,7 @@ License
 #include "dictionaryEntries.H"
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
+#include <limits>
 
 namespace Foam
 {
@@ -16,6 +17,29 @@ namespace mpm
     addToRunTimeSelectionTable(pointRegion, surfaceRegion, dictionary);
 }
 }
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::string Foam::mpm::surfaceRegion::rounding(const fileName& file) const
+{
+    const fileName name(file.ext() == "gz" ? file.lessExt() : file);
+    const word format(name.ext());
+    if (format != "stl" && format != "STL" && format != "stlb") return string();
+
+    const boundBox& bounds = surface_.bounds();
+    const scalar farthest =
+        max(cmptMax(cmptMag(bounds.min())), cmptMax(cmptMag(bounds.max())));
+    const scalar step = farthest*std::numeric_limits<float>::epsilon();
+    if (step < 1e-3*cmptMin(bounds.span())) return string();
+
+    OStringStream os;
+    os  << nl << "    OpenFOAM reads STL in single precision: at " << farthest
+        << " m it holds steps of " << step << " m only." << nl
+        << "    Use the format obj, or move the origin of the coordinates near"
+        << " to the mesh.";
+    return os.str();
+}
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -42,12 +66,21 @@ Foam::mpm::surfaceRegion::surfaceRegion
 {
     checkKeywords(dict, keywords({"file"}), strictKeywords);
 
+    const fileName file(surface_.searchableSurface::objectPath());
+    const string rounded(rounding(file));
+
     if (!surface_.hasVolumeType())
     {
         FatalIOErrorInFunction(dict)
-            << "keyword file: the surface " << surface_.searchableSurface::objectPath()
-            << " is not closed." << nl
-            << "    Allowed: a closed surface" << exit(FatalIOError);
+            << "keyword file: the surface " << file << " is not closed."
+            << rounded.c_str() << nl << "    Allowed: a closed surface"
+            << exit(FatalIOError);
+    }
+    if (!rounded.empty())
+    {
+        IOWarningInFunction(dict)
+            << "keyword file: the surface " << file << " is rounded."
+            << rounded.c_str() << endl;
     }
 }
 
