@@ -253,6 +253,29 @@ def testCollapseOnTwoRanks(collapse, tmp_path, figures):
                 np.abs(u - v).max()/np.abs(u).max()), 1e-10)
 
 
+def testLooseGrainsFlowAsASuspension(tmp_path, figures):
+    """A loose column liquefies. What its grains rub on the liquid between them
+    carries them for seconds; without it they flow like water"""
+    course = {}
+    for flow in ("BoyerGuazzelliPouliquen", "none"):
+        run = coupling.collapse(flow, h=0.006, end=1.4, points=3, loose=True)
+        run.settings[coupling.PROPERTIES][
+            "soil/elastoplasticMuICoeffs/viscousFlow"] = flow
+        run.settings["system/controlDict"]["writeInterval"] = 0.2
+        case = solved(tmp_path, run)
+        course[flow] = coupled.collapseCourse(case)
+        figures.atMost(f"{flow}, energy: largest climb over the initial",
+                       coupled.energyGrowth(case), 1e-3)
+        figures.atMost(f"{flow}, mass: error", coupled.massError(case), 1e-13)
+    suspension, water = course.values()
+    figures.atMost("way of the front over that without", float(
+        (suspension[-1, 1] - suspension[0, 1])
+        /(water[-1, 1] - water[0, 1])), 0.85)
+    figures.atLeast("pore pressure at 1.4 s, Pa", float(suspension[-1, 3]), 100)
+    figures.atLeast("and over that without, Pa", float(
+        suspension[-1, 3] - water[-1, 3]), 25)
+
+
 # --- time -----------------------------------------------------------------
 
 def testViscousStep(tmp_path, figures):

@@ -91,14 +91,20 @@ def bed(name, h=0.01, level=0.3, end=10, form="gradient", **about):
         h=h, level=level, **about)
 
 
-def collapse(name, h=0.003, end=18, cap=15, points=4):
+def collapse(name, h=0.003, end=18, cap=15, points=4, loose=False):
+    """Rondon's column of 0.042 m at a solid fraction of 0.60; loose, of
+    0.048 m at 0.55"""
     return run(
         "immersedCollapse", name,
         {"system/blockMeshDict": {"h": h, "nx": round(0.3/h),
                                   "ny": round(0.084/h)},
          "system/fvSolution": {"MPM/maxSoilSoundSpeed": cap},
          POINTS: {"water/pointsPerDirection": points,
-                  "soil/pointsPerDirection": points},
+                  "soil/pointsPerDirection": points,
+                  "soil/regions/column/max": [
+                      0.06, 0.048 if loose else 0.042, 1]},
+         PROPERTIES: {"soil/elastoplasticMuICoeffs/e0":
+                      0.818 if loose else 0.6667},
          "system/controlDict": {"endTime": end}},
         h=h, end=end)
 

@@ -87,11 +87,16 @@ def criticalVoidRatio(soil, p):
 def endState(soil, p0, plasticStrain):
     """p, q, e of a drained test where H(eps_p) = M_pt(e, p), q = 3 (p - p0)"""
     tanC = np.tan(np.radians(soil["phiC"]))
-    hard = plasticStrain/(soil["kp"] + plasticStrain)
-    state = brentq(lambda s: hard*slope(np.exp(soil["np"]*s)*tanC)
-                   - slope(np.exp(-soil["nd"]*s)*tanC), -0.5, 0.5, xtol=1e-14)
-    H = slope(np.exp(-soil["nd"]*state)*tanC)
-    p = 3*p0/(3 - H)
+    p = p0
+    for _ in range(20):
+        # kp goes with the elastic strain, up to atmospheric pressure
+        kp = soil["kp"]*(min(p, P_AT)/P_AT)**(1 - soil["n"])
+        hard = plasticStrain/(kp + plasticStrain)
+        state = brentq(lambda s: hard*slope(np.exp(soil["np"]*s)*tanC)
+                       - slope(np.exp(-soil["nd"]*s)*tanC), -0.5, 0.5,
+                       xtol=1e-14)
+        H = slope(np.exp(-soil["nd"]*state)*tanC)
+        p = 3*p0/(3 - H)
     return p, H*p, criticalVoidRatio(soil, p)*np.exp(-state)
 
 

@@ -9,7 +9,11 @@ License
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::mpm::criticalState::criticalState(const dictionary& coeffs)
+Foam::mpm::criticalState::criticalState
+(
+    const dictionary& coeffs,
+    const granularElasticity& elasticity
+)
 :
     tanPhiC_
     (
@@ -21,6 +25,21 @@ Foam::mpm::criticalState::criticalState(const dictionary& coeffs)
     xi_(readPositive(coeffs, "xi", dimless)),
     Ad_(readBounded(coeffs, "Ad", dimless, 0, GREAT, true)),
     kp_(readPositive(coeffs, "kp", dimless)),
+    kpExponent_
+    (
+        readBoundedOrDefault
+        (
+            coeffs, "kpPressureExponent", dimless, 1 - elasticity.n(), 0, 1,
+            true, true
+        )
+    ),
+    kpExponentBelow_
+    (
+        kpExponent_ == 1 - elasticity.n()
+      ? 1
+      : kpExponent_/(1 - elasticity.n())
+    ),
+    pE_(min(elasticity.uncapped().pE, granularElasticity::pAt)),
     np_(readBounded(coeffs, "np", dimless, 0, GREAT, true)),
     nd_(readBounded(coeffs, "nd", dimless, 0, GREAT, true))
 {
@@ -45,7 +64,11 @@ Foam::mpm::criticalState::criticalState(const dictionary& coeffs)
 
 Foam::wordList Foam::mpm::criticalState::keywords()
 {
-    return wordList({"phiC", "eRef", "lambda", "xi", "Ad", "kp", "np", "nd"});
+    return wordList
+    ({
+        "phiC", "eRef", "lambda", "xi", "Ad", "kp", "kpPressureExponent", "np",
+        "nd"
+    });
 }
 
 // ************************************************************************* //

@@ -60,11 +60,42 @@ class soilKernelsFor
         return m;
     }
 
+    //- Saturation around the points begin .. end - 1: that of their tiles
+    void findSaturation(const label begin, const label end)
+    {
+        const soilCloud& c = cloud_;
+        const label* tile = c.points_.tile();
+        for (label i = begin; i < end; ++i)
+        {
+            work_.saturation[i - begin] =
+                i > begin && tile[i] == tile[i - 1]
+              ? work_.saturation[i - begin - 1]
+              : kernels_.saturation
+                (
+                    c.coupling_->saturation, *c.waterMomentum_, tile[i]
+                );
+        }
+    }
+
     //- What the constitutive model sees of the points begin .. end - 1
-    soilPoints modelPoints(const label begin, const label end)
+    soilPoints modelPoints
+    (
+        const label begin,
+        const label end,
+        const bool wet
+    )
     {
         soilCloud& c = cloud_;
         soilPoints s(c.modelPoints(begin, end));
+        if (wet)
+        {
+            findSaturation(begin, end);
+            s.saturation = work_.saturation.data();
+        }
+        else
+        {
+            s.liquidViscosity = 0;
+        }
         for (int i = 0; i < dim*dim; ++i)
         {
             s.velocityGradient[i] = work_.gradient[i].data();
@@ -141,7 +172,7 @@ public:
             view.n = end;
             kernels_.gradientToParticle(view, begin, m, keep, c.nodes_);
 
-            soilPoints s(modelPoints(begin, end));
+            soilPoints s(modelPoints(begin, end, coupling));
             c.model_->update(dim, s, deltaT);
             c.waveSpeedSqr_ = max(c.waveSpeedSqr_, s.maxWaveSpeedSqr);
             c.viscosity_ = max(c.viscosity_, s.maxViscosity);

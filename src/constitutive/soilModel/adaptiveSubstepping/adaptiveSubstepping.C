@@ -40,7 +40,7 @@ Foam::scalar Foam::mpm::adaptiveSubstepping::yieldAt
 ) const
 {
     return peakAt(y, direction)*y.p()
-       *y.plasticStrain()/(strength_.kp() + y.plasticStrain());
+       *y.plasticStrain()/(strength_.kp(y.p()) + y.plasticStrain());
 }
 
 
@@ -78,7 +78,7 @@ bool Foam::mpm::adaptiveSubstepping::rates
     if (size <= 0) return false;
 
     const scalar Mp = peakAt(y, direction);
-    const scalar kp = strength_.kp();
+    const scalar kp = strength_.kp(y.p());
     const scalar hardening =
         Mp*kp/((kp + y.plasticStrain())*(kp + y.plasticStrain()));
     const scalar H = Mp*y.plasticStrain()/(kp + y.plasticStrain());
@@ -207,7 +207,8 @@ bool Foam::mpm::adaptiveSubstepping::integrate
                 theta
             );
             const scalar H =
-                Mp*y.plasticStrain()/(strength_.kp() + y.plasticStrain());
+                Mp*y.plasticStrain()
+               /(strength_.kp(y.p()) + y.plasticStrain());
 
             if (step.contraction + strength_.Ad()*(H - Mpt)*deq <= 0)
             {

@@ -25,11 +25,13 @@ Foam::mpm::elastoplasticMuI::elastoplasticMuI
 )
 :
     granularModel(coeffs, false),
-    strength_(coeffs),
-    rheology_(coeffs, rhoS_, d_, true)
+    strength_(coeffs, elasticity_),
+    rheology_(coeffs, rhoS_, d_, true),
+    suspension_(coeffs, 1/(1 + strength_.eRef()))
 {
     wordList own(criticalState::keywords());
     own.append(muIRheology::keywords(true));
+    own.append(denseSuspension::keywords());
     checkKeywords(coeffs, keywords(false, own), strictKeywords);
 
     readBounded(coeffs, "PhiC", dimless, 1/(1 + e0_), 1, false, true);
@@ -74,7 +76,7 @@ Foam::scalar Foam::mpm::elastoplasticMuI::startStrain
             << "    Allowed: 0 <= q/p < " << Mp
             << ", the peak strength there" << exit(FatalIOError);
     }
-    return strength_.kp()*q/(Mp*p - q);
+    return strength_.kp(p)*q/(Mp*p - q);
 }
 
 

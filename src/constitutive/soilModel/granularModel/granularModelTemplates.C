@@ -17,6 +17,19 @@ inline Foam::scalar Foam::mpm::granularModel::viscosityFactor
 }
 
 
+inline Foam::scalar Foam::mpm::granularModel::liquidViscosity
+(
+    const soilPoints& points,
+    const label i
+) const
+{
+    return
+        points.saturation
+      ? points.liquidViscosity*points.saturation[i]
+      : points.liquidViscosity;
+}
+
+
 template<int dim>
 void Foam::mpm::granularModel::loadBlock
 (
@@ -242,11 +255,12 @@ bool Foam::mpm::granularModel::contactStep
         model, strengths, j, block, step.plasticStrain
     );
 
-    scalar dH, dPlastic;
+    // Slope of H along dl, and along p times p
+    scalar dH, pdH, dPlastic;
     scalar scale = 1;
     scalar plasticContraction = 0;
 
-    const scalar HTrial = flow.ratio(0, dH);
+    const scalar HTrial = flow.ratio(0, p, dH, pdH);
     if (q > HTrial*p)
     {
         const scalar kStart = block.kStart[j];
@@ -268,7 +282,8 @@ bool Foam::mpm::granularModel::contactStep
             const scalar dX = floor ? 0 : -a*dPlastic;
             const scalar dG =
                 halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
-            return (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - H*k*dX;
+            return
+                (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - (H + pdH)*k*dX;
         };
 
         // Beyond this even the softest elastic strain is used up
@@ -308,7 +323,7 @@ bool Foam::mpm::granularModel::contactStep
             G = halfModulus*(kStart + k);
             q = std::sqrt(max(c0 + G*(2*c1 + G*c2), VSMALL));
 
-            const scalar H = flow.ratio(dl, dH);
+            const scalar H = flow.ratio(dl, p, dH, pdH);
             const scalar residual = q - 3*G*dl - H*p;
             scale = min(H*p/q, scalar(1));
 
@@ -346,7 +361,7 @@ bool Foam::mpm::granularModel::contactStep
             // Pressure and strength chase each other, in strain increments
             // that compress to tens of MPa: at least stay within the strength
             refresh();
-            scale = min(flow.ratio(dl, dH)*p/q, scalar(1));
+            scale = min(flow.ratio(dl, p, dH, pdH)*p/q, scalar(1));
         }
         step.plasticStrain += dl;
     }
@@ -359,7 +374,7 @@ bool Foam::mpm::granularModel::contactStep
             t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
         }
         flow.refresh(p, t, q);
-        const scalar H = flow.ratio(0, dH);
+        const scalar H = flow.ratio(0, p, dH, pdH);
         if (q > H*p) scale = H*p/q;
     }
 
@@ -587,15 +602,6 @@ void Foam::mpm::granularModel::addViscous
                 block.shearRateSqr[j], block.e[j], block.p[j],
                 viscosity, pressure, I
             );
-
-            // In expansion faster than shear the dispersive pressure would
-            // do more work than viscosity dissipates: grains that are large
-            // for their cells would drive themselves apart without end
-            pressure = min
-            (
-                pressure,
-                2*viscosity*block.shearRateSqr[j]/max(block.trace[j], VSMALL)
-            );
         }
         else
         {
@@ -608,6 +614,36 @@ void Foam::mpm::granularModel::addViscous
         block.viscosity[j] = flows*viscosity;
         block.viscousPressure[j] = flows*pressure;
     }
+    if constexpr (Model::hasViscousPart)
+    {
+        if (points.liquidViscosity > 0 && model.suspension().active())
+        {
+            #pragma GCC ivdep
+            for (label j = 0; j < nPoints; ++j)
+            {
+                model.suspension().addViscosity
+                (
+                    block.shearRateSqr[j], block.e[j], block.p[j],
+                    block.flows[j]*liquidViscosity(points, first + j),
+                    block.viscosity[j], block.viscousPressure[j]
+                );
+            }
+        }
+
+        // In expansion faster than shear the pressure of the flow would do
+        // more work than viscosity dissipates: grains that are large for
+        // their cells would drive themselves apart without end
+        #pragma GCC ivdep
+        for (label j = 0; j < nPoints; ++j)
+        {
+            block.viscousPressure[j] = min
+            (
+                block.viscousPressure[j],
+                2*block.viscosity[j]*block.shearRateSqr[j]
+               /max(block.trace[j], VSMALL)
+            );
+        }
+    }
 
     // Suspended grains in liquid. Twice the viscosity stands for that of D
     if (points.liquidViscosity > 0)
@@ -617,7 +653,8 @@ void Foam::mpm::granularModel::addViscous
             if (block.flows[j] == 0)
             {
                 block.viscosity[j] =
-                    2*points.liquidViscosity*viscosityFactor(block.e[j]);
+                    2*liquidViscosity(points, first + j)
+                   *viscosityFactor(block.e[j]);
             }
         }
     }
