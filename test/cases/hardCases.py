@@ -609,7 +609,11 @@ def sandEntersFast(speed=7, points=3, end=0.1, soil=None, **entries):
 
 
 def sandEntered(figures, case):
-    hard(figures, case, stored="linearElasticCoeffs" in case.setup.soil)
+    # What is under tension as it is cut off gives up its elastic energy, and
+    # gets it back when it is closed
+    cut = case.setup.water.get("tensionCutOff", False)
+    hard(figures, case, 0.01 if cut else GROWTH,
+         stored="linearElasticCoeffs" in case.setup.soil)
     speed = -case.setup.soilRegions["block"]["velocity"][1]
     figures.atLeast("speed of sound over 10 times the speed of the sand",
                     case.state("0")["soundSpeed"]/(10*speed), 1)

@@ -6,7 +6,11 @@ License
 #include "endSignals.H"
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <iostream>
+#include <streambuf>
 #include <unistd.h>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -16,17 +20,63 @@ namespace
 
 volatile std::sig_atomic_t caught = 0;
 
-//- Nobody may read the log any more, and that must not end the run: who reads
-//  it through a pipe gets Ctrl-C, too
-void ignorePipe()
-{
-    std::signal(SIGPIPE, SIG_IGN);
-}
-
 void note(int signal)
 {
     caught = signal;
-    ignorePipe();
+
+    // Who reads the log through a pipe gets Ctrl-C, too
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+
+//- A log that nobody may read any more: OpenFOAM takes a failed message for an
+//  error, and fails again with the message of that
+class forgivingBuffer
+:
+    public std::streambuf
+{
+    const int file_;
+
+    virtual std::streamsize xsputn(const char* text, std::streamsize n)
+    {
+        for (std::streamsize done = 0; done < n;)
+        {
+            const ssize_t part = ::write(file_, text + done, n - done);
+            if (part <= 0 && errno != EINTR) break;
+            done += std::max(part, ssize_t(0));
+        }
+        return n;
+    }
+
+    virtual int_type overflow(int_type c)
+    {
+        const char text = traits_type::to_char_type(c);
+        xsputn(&text, 1);
+        return traits_type::not_eof(c);
+    }
+
+public:
+
+    explicit forgivingBuffer(const int file)
+    :
+        file_(file)
+    {}
+};
+
+
+//- Messages from now on may get lost
+void forgive()
+{
+    static bool done = false;
+    if (done) return;
+    done = true;
+
+    // Never deleted: the streams use them until the very end
+    std::cout.flush();
+    std::cout.rdbuf(new forgivingBuffer(STDOUT_FILENO));
+    std::cerr.rdbuf(new forgivingBuffer(STDERR_FILENO));
+    std::cout.clear();
+    std::cerr.clear();
 }
 
 //- Larger than any signal
@@ -63,11 +113,13 @@ Foam::string Foam::mpm::endSignals::received() const
     label what = caught;
     if (Pstream::parRun() && getppid() != launcher_)
     {
-        ignorePipe();
+        note(caught);
         what = launcherGone;
     }
+    reduce(what, maxOp<label>());
+    if (what) forgive();
 
-    switch (returnReduce(what, maxOp<label>()))
+    switch (what)
     {
         case 0:
         {

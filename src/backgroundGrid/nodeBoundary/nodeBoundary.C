@@ -734,7 +734,7 @@ Foam::mpm::nodeBoundary::nodeBoundary
 
 bool Foam::mpm::nodeBoundary::isOpening(const word& patchType)
 {
-    return openTypes.found(patchType);
+    return patchTypes::open.found(patchType);
 }
 
 
