@@ -29,6 +29,7 @@ EXPLAINED_IN = {
     "src/constitutive/granularElasticity": "soilModels",
     "src/constitutive/criticalState": "soilModels",
     "src/constitutive/muIRheology": "soilModels",
+    "src/constitutive/denseSuspension": "soilModels",
     "src/constitutive/elementTest": "soilElementTestDict",
     "applications/utilities/soilElementTest": "soilElementTestDict",
     "src/materialPoint/pointRegion": "setMaterialPointsDict",
