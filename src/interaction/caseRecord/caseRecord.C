@@ -219,6 +219,29 @@ void Foam::mpm::caseRecord::checkBasis(const dictionary& state) const
             changes = rest;
         }
     }
+    // Clouds that only one of them has are named by the entry clouds. What the
+    // case leaves to the state file, as a speed of sound that is auto, is not
+    // changed.
+    for (const word& part : was.toc())
+    {
+        if (!was.isDict(part)) continue;
+        if (!is.isDict(part))
+        {
+            was.remove(part);
+            continue;
+        }
+        for (const word& keyword : was.subDict(part).toc())
+        {
+            if (!is.subDict(part).found(keyword))
+            {
+                was.subDict(part).remove(keyword);
+            }
+        }
+    }
+    for (const word& part : is.toc())
+    {
+        if (is.isDict(part) && !was.isDict(part)) is.remove(part);
+    }
     compare(was, is, "", changes);
     if (changes.empty()) return;
 

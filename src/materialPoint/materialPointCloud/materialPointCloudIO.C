@@ -442,8 +442,9 @@ void Foam::mpm::materialPointCloud::gatherStrays(const labelUList& strays)
     FatalErrorInFunction
         << "cloud " << name() << ": " << returnReduce(nLost, sumOp<label>())
         << " points in " << time().timePath()/cloud::prefix/name()
-        << " lie outside of the mesh, the first is " << texts[rank].c_str()
-        << (Pstream::parRun() ? " of rank " + Foam::name(rank) : string())
+        << " lie outside of the mesh, the first is " << texts[rank].c_str();
+    if (Pstream::parRun()) FatalError<< " of rank " << rank;
+    FatalError
         << '.' << nl
         << "    Were mesh or decomposition changed after setMaterialPoints?"
         << exit(FatalError);
