@@ -832,7 +832,7 @@ Foam::label Foam::mpm::materialPointCloud::nFaster(const scalar speed) const
 }
 
 
-Foam::string Foam::mpm::materialPointCloud::describe(const label p) const
+Foam::string Foam::mpm::materialPointCloud::pointText(const label p) const
 {
     vector velocity(Zero);
     for (label d = 0; d < grid_.nDim(); ++d)
@@ -858,7 +858,7 @@ Foam::string Foam::mpm::materialPointCloud::firstNonFinite() const
         {
             finite = finite && std::isfinite(v(d)[p]);
         }
-        if (!finite) return describe(p);
+        if (!finite) return pointText(p);
     }
     return "cloud " + name() + ", sum of squared speeds overflows";
 }

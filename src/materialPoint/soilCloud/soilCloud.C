@@ -532,7 +532,7 @@ Foam::string Foam::mpm::soilCloud::nonFiniteState() const
         }
         if (std::isfinite(pressure) && std::isfinite(voidRatio()[p])) continue;
         return
-            describe(p) + ", void ratio " + Foam::name(voidRatio()[p])
+            pointText(p) + ", void ratio " + Foam::name(voidRatio()[p])
           + ", mean effective stress " + Foam::name(pressure) + " Pa";
     }
     return string();

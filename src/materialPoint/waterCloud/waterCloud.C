@@ -632,7 +632,7 @@ Foam::string Foam::mpm::waterCloud::nonFiniteState() const
     for (label p = 0; p < size(); ++p)
     {
         if (std::isfinite(J()[p])) continue;
-        return describe(p) + ", volume ratio " + Foam::name(J()[p]);
+        return pointText(p) + ", volume ratio " + Foam::name(J()[p]);
     }
     return string();
 }
