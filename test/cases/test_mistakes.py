@@ -197,6 +197,11 @@ MISTAKES = [
                       r"0 < rho0 < 1e\+15"],
             lambda: changed(water(), fluid={"rho0": 1e20})),
 
+    Mistake("onePointPerCell", "`pointsPerDirection 1` for water",
+            f"`{REGIONS}`: `pointsPerDirection`", "warning",
+            [REGIONS, "keyword pointsPerDirection is 1", "Usual: 2 to 4"],
+            lambda: changed(water(), placement={"pointsPerDirection": 1})),
+
     # controlDict
     Mistake("adjustTimestep", "`adjustTimestep yes`",
             f"`{CONTROL}`: `adjustTimeStep`", "error",

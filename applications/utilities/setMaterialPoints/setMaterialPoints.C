@@ -198,6 +198,24 @@ static void checkMemory
 }
 
 
+//- Water of one point per cell does not hold its depth
+static void checkDensityOfPoints
+(
+    const mpm::materialPointCloud& cloud,
+    const dictionary& dict
+)
+{
+    const label n = dict.get<label>("pointsPerDirection");
+    if (cloud.name() == "water" && n < 2)
+    {
+        IOWarningInFunction(dict)
+            << "keyword pointsPerDirection is " << n << ": still water may lose"
+            << " a sixth of its depth within seconds." << nl
+            << "    Usual: 2 to 4" << nl << endl;
+    }
+}
+
+
 //- Points of one region
 struct regionPoints
 {
@@ -437,6 +455,7 @@ static std::vector<placedRegion> place
         (
             mpm::pointRegion::New(mesh, entries, strict)
         );
+        if (regions.empty()) checkDensityOfPoints(cloud, dict);
         checkMemory(cloud, *region, dict);
         const regionPoints filled(fill(cloud.grid(), *region, dict, taken));
 
