@@ -1124,7 +1124,7 @@ static void setSoilState
         checkStiffness
         (
             soil, r, weights.last(), up,
-            soil.grid().mesh().solutionDict().subOrEmptyDict("MPM")
+            refCast<const fvMesh>(soil.grid().mesh()).solutionDict().subOrEmptyDict("MPM")
         );
     }
 
