@@ -914,7 +914,7 @@ HARD = {
         undrainedHolds, {}, {"increment": 1e-5}),
     "sandEntersFast": HardCase(
         "sand that enters water at 7 m/s, until it lies", sandEntersFast,
-        sandEnteredAndSank, {"end": 1.2}, {"speed": 20, "end": 4}),
+        sandEnteredAndSank, {"end": 2.4}, {"speed": 20, "end": 4}),
     "silt": HardCase(
         "d = 0.05 mm", heap, heapGives, {"d": 0.05e-3},
         {"d": 0.05e-3, "n": 2, "end": 1}),

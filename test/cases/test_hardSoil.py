@@ -151,7 +151,10 @@ SOFT = {"cap": ({"maxSoilSoundSpeed": 0.1}, {}, "fvSolution",
                          "DruckerPragerCoeffs": {
                              **GRAINS, "E": 10, "phi": 35}},
                     "DruckerPragerCoeffs", "E", "10"),
-        "dense": ({}, sand(e0=1e-5), "elastoplasticMuICoeffs", "e0", "1e-05"),
+        "dense": ({}, {"constitutiveModel": "DruckerPrager",
+                       "DruckerPragerCoeffs": {
+                           **GRAINS, "E": 1e6, "phi": 35, "e0": 1e-5}},
+                  "DruckerPragerCoeffs", "e0", "1e-05"),
         "denseRegion": ({}, {}, "bed", "voidRatio", "1e-05")}
 
 

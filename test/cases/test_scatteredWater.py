@@ -67,10 +67,12 @@ def testLonePointAtWall(tmp_path, figures, dim, y, maxCo):
     place(case, height, J)
     case.solve()
     energies = case.energies()
+    stored = energies["elastic"][0]
     total = energies["kinetic"] + energies["potential"] \
         + energies["stresswork"]
-    figures.atMost("growth of the energy over its initial value", float(
-        (total - np.minimum.accumulate(total)).max()/total[0]), GROWTH)
+    # What its volume stores is not in it, and comes back
+    figures.atMost("largest growth of the energy over its initial value",
+                   float((total.max() - total[0])/(total[0] + stored)), GROWTH)
     end = case.points()
     figures.atMost("velocity along the wall: change",
                    abs(float(end.U[0, 0]) - 1), 1e-12)
