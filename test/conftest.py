@@ -1,6 +1,7 @@
 """What all tests share: the environment, and the figures they report."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT/"etc"/"python"))
+
+# A shell's background jobs ignore Ctrl-C, and so would the runs that tests
+# interrupt
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 _lines = []
 

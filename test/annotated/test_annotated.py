@@ -141,8 +141,8 @@ def testModels(family, base, name):
 
 @pytest.mark.parametrize("kind", ["slip", "fixed", "open"])
 def testPatchTypes(kind):
-    text = (ROOT/"src/backgroundGrid/nodeBoundary/nodeBoundary.C").read_text()
-    body = re.search(rf"{kind}Types\(\{{([^}}]*)\}}\)", text)[1]
+    text = (ROOT/"src/backgroundGrid/nodeBoundary/patchTypes.C").read_text()
+    body = re.search(rf"patchTypes::{kind}\s*\(\{{([^}}]*)\}}\)", text)[1]
     for patchType in re.findall(r'"(\w+)"', body):
         name = "U.soil" if patchType == "frictional" else "U.water"
         assert f"type            {patchType};" in explained(name)

@@ -530,7 +530,8 @@ actions
         """Until the log of mpmFoam has come to a time"""
         end = time.monotonic() + limit
         while time.monotonic() < end:
-            text = (self.path/"log.mpmFoam").read_text(errors="replace")
+            log = self.path/"log.mpmFoam"
+            text = log.read_text(errors="replace") if log.exists() else ""
             times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
             if times and float(times[-1]) >= time_:
                 return

@@ -108,6 +108,8 @@ def anew(reference, path):
     case = reference.clone(path)
     for t in reference.times[1:]:
         shutil.rmtree(case.path/t)
+    # Its log says that it has come far
+    (case.path/"log.mpmFoam").unlink()
     case.setup = longRun()
     case.rewrite()
     return case

@@ -35,6 +35,10 @@ def caseOf(path, tests=None, soil=None):
     text = properties.read_text()
     for keyword, value in (soil or {}).items():
         text, n = re.subn(rf"(\b{keyword}\s+)\S+;", rf"\g<1>{value};", text)
+        if not n:
+            # One that the tutorial leaves at its default
+            text, n = re.subn(r"(elastoplasticMuICoeffs\s*\{)",
+                              rf"\g<1> {keyword} {value};", text)
         assert n, f"no {keyword} in the tutorial's soil"
     properties.write_text(text)
     return path

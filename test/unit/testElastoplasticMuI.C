@@ -372,7 +372,14 @@ TEST_CASE("elastoplasticMuI: a rotating point keeps its invariants")
 }
 
 
-TEST_CASE("elastoplasticMuI: error against the reference integrator")
+//- Errors of all tests with an exponent of the hardening. Most is the largest
+//  error of q of sand that liquefies, and order the least mean order
+static void compareWithReference
+(
+    const scalar kpPressureExponent,
+    const scalar mostLiquefied,
+    const scalar order
+)
 {
     struct test
     {
@@ -400,7 +407,10 @@ TEST_CASE("elastoplasticMuI: error against the reference integrator")
         }
     });
 
-    const dictionary coeffs(dictOf(sand()));
+    dictionary coeffs(dictOf(sand()));
+    coeffs.set("kpPressureExponent", kpPressureExponent);
+    std::ostringstream exponent;
+    exponent << "kpPressureExponent " << kpPressureExponent << ", ";
     const elastoplasticMuI model(coeffs, true);
     const adaptiveSubstepping reference(coeffs, true);
 
@@ -408,11 +418,13 @@ TEST_CASE("elastoplasticMuI: error against the reference integrator")
     label nOrders = 0;
     for (const test& t : tests)
     {
+        const bool liquefies =
+            std::string(t.name) == "undrained triaxial"
+         || std::string(t.name) == "simple shear constant volume";
         for (const auto& [density, e] : std::vector<std::pair<std::string, scalar>>
             ({{"dense", 0.65}, {"loose", 0.78}, {"very loose", 0.9}}))
         {
             scalar worst = 0;
-            std::string figures;
             for (const scalar p0 : {50.0, 500.0, 5e3, 1e5})
             {
                 std::ostringstream os;
@@ -459,20 +471,31 @@ TEST_CASE("elastoplasticMuI: error against the reference integrator")
             }
             atMost
             (
-                std::string(t.name) + ", " + density
+                exponent.str() + t.name + ", " + density
               + ", 50 Pa to 100 kPa: error of q over its maximum at 1e-4",
-                worst, 0.01
+                worst, liquefies && e > 0.85 ? mostLiquefied : 0.01
             );
         }
     }
     atLeast
     (
-        "order of convergence, mean of dense and loose", sumOrder/nOrders, 0.9
+        exponent.str() + "order of convergence, mean of dense and loose",
+        sumOrder/nOrders, order
     );
     // The largest error may move along the path as the increment falls
-    atLeast("smallest of them", worstOrder, 0.5);
+    atLeast(exponent.str() + "smallest of them", worstOrder, 0.5);
 }
 
+
+TEST_CASE("elastoplasticMuI: error against the reference integrator")
+{
+    compareWithReference(0, 0.01, 0.9);
+
+    // Hardening that follows the pressure: very loose sand loses half of it,
+    // and of kp, within two or three of these increments, before q has come
+    // to its maximum. The return takes kp as the mean of start and end.
+    compareWithReference(0.5, 0.02, 0.85);
+}
 
 TEST_CASE("elastoplasticMuI: end states at finite strain")
 {

@@ -660,7 +660,7 @@ TEST_CASE("function objects: refused entries")
     contains
     (
         refusal("type materialPointEnergy; cloud soil;"),
-        {"keyword cloud", "soil", "Clouds of this case: 1(water)"}
+        {"keyword cloud", "soil", "Clouds of this case: (water)"}
     );
     contains
     (

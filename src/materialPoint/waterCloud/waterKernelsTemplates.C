@@ -138,8 +138,7 @@ class waterKernelsFor
                             );
                     }
                 }
-                velocity[i][dim] =
-                    inside ? 1 - 1/S[i] : max(0.0, S[i] - 1.1);
+                velocity[i][dim] = inside ? S[i] - 1 : max(0.0, S[i] - 1.1);
             }
         );
 
