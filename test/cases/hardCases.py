@@ -174,13 +174,13 @@ def climb(total):
     return (total - np.minimum.accumulate(total)).max()
 
 
-def hard(figures, case, bound=GROWTH):
+def hard(figures, case, bound=GROWTH, stored=False):
     """All that a scene with soil must hold to, at all times written: finite
     values, exact masses, nothing outside of the mesh or in walls, no overlap
     of grains. Energy: kinetic + potential of both clouds: what one loses the
     other may win, no more. The water's elastic energy and what its volume
-    correction did come on top; soil stores almost none. Of soil alone with
-    the work of its stresses."""
+    correction did come on top; soil stores almost none, unless the case says
+    that it does. Of soil alone with the work of its stresses."""
     names = case.setup.clouds
     sound(figures, case, names)
     wrong, densest, onGrid = 0, 0, 0
@@ -208,6 +208,8 @@ def hard(figures, case, bound=GROWTH):
         total = (water[:, KINETIC] + water[:, POTENTIAL] + water[:, ELASTIC]
                  - water[:, CORRECTION]
                  + soil[:, KINETIC] + soil[:, POTENTIAL])
+        if stored:
+            total = total + soil[:, ELASTIC]
     else:
         total = soil[:, TOTAL]
     figures.atMost("largest growth of the energy over its initial value",
@@ -592,6 +594,17 @@ def sandSank(figures, case):
     # overlaps with them, and the volume correction takes more than a second
     # to part them (validation/stability)
     level(figures, case, SANK, 0.05)
+
+
+def sandEntersFast(speed=7, points=3, end=0.1, soil=None, **entries):
+    """A block of sand flies into still water; the speed of sound is auto,
+    unless the fluid says another"""
+    return scene(
+        cells=(14, 14), h=0.01, points=points, soil=soil or sand(),
+        regions={"pool": hydrostatic((0, 0), (0.14, 0.05))},
+        soilRegions={"block": box((0.04, 0.07), (0.09, 0.11),
+                                  velocity=(0, -speed, 0))},
+        **entries).until(end, end/4)
 
 
 def heap(n=1, d=1e-3, end=0.5):

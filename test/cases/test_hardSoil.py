@@ -1,12 +1,19 @@
 """Hard cases with soil beside those of hardCases (spec 11)."""
 
+import re
+
 import numpy as np
 import pytest
 
 import hardCases
 from caseBuilder import box, hydrostatic
 from hardCases import hard, scene
-from test_wallJet import clouds
+from test_wallJet import CloudPoints, clouds
+
+
+def says(figures, text, pattern):
+    found = re.search(pattern, text)
+    figures.contains("message", found and found[0][-200:], pattern)
 
 
 def testSoilFarFromWater(tmp_path, figures):
@@ -31,6 +38,38 @@ def testDenseSlopeStands(tmp_path, figures, angle):
         tmp_path/"case").prepare()
     case.solve()
     hardCases.slopeStands(figures, case)
+
+
+GRAINS = {"rhoS": 2650, "d": 0.85e-3, "e0": 0.695, "nu": 0.2}
+CAP = {"mpm": {"maxSoilSoundSpeed": 20}}
+CUT = {"water": {"tensionCutOff": True}}
+KINDS = {
+    "DruckerPrager": {"soil": {"constitutiveModel": "DruckerPrager"}},
+    "linearElastic": {"soil": {
+        "constitutiveModel": "linearElastic",
+        "linearElasticCoeffs": {**GRAINS, "E": 1e6}}},
+    "muI": {"soil": {"constitutiveModel": "muI", "muICoeffs": {
+        **GRAINS, "E0": 216, "n": 0.5, "muS": 0.7, "muD": 0.77, "I0": 0.28}}},
+    "capped": CAP, "tensionCutOff": CUT, "cappedAndCut": {**CAP, **CUT}}
+
+
+@pytest.mark.parametrize("points, kind", [
+    (2, None), (3, None), (4, None), *((3, kind) for kind in KINDS)])
+def testFastSandAndSlowSound(tmp_path, figures, points, kind):
+    """Sand at 10 m/s, sound at 7: the water is compressed by tenths, and the
+    log says so. The nodes above its surface must not have the pressure that
+    Tait's law finds far beyond the points"""
+    setup = hardCases.sandEntersFast(
+        10, points, end=0.05, fluid={"soundSpeed": 7}, **KINDS.get(kind, {}))
+    case = setup.write(tmp_path/"case").prepare()
+    result = case.solve()
+    # So compressed, water is a spring
+    hard(figures, case, 0.02, stored=kind == "linearElastic")
+    fastest = max(np.linalg.norm(CloudPoints(
+        case, cloud, time)["U"], axis=1).max()
+        for cloud in ["water", "soil"] for time in case.times)
+    figures.atMost("largest speed over the first", float(fastest/10), 1.5)
+    says(figures, result.text, r"-->.*raise soundSpeed above 7\b")
 
 
 def testImpactOnTwoRanks(tmp_path, figures):

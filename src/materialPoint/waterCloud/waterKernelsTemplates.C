@@ -58,6 +58,7 @@ class waterKernelsFor
         {
             m.gradJ[d] = smoothing ? c.points_.column(c.gradJ_ + d) : nullptr;
             m.gravity[d] = c.g_[c.grid_.cells().axis(d)];
+            m.reach[d] = 0.5*Shape::width*c.grid_.cells().spacing(d);
         }
         return m;
     }
