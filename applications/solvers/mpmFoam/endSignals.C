@@ -9,7 +9,10 @@ License
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
 #include <iostream>
+#include <poll.h>
 #include <streambuf>
 #include <unistd.h>
 
@@ -20,12 +23,39 @@ namespace
 
 volatile std::sig_atomic_t caught = 0;
 
+//- Is this process a rank that mpirun (OpenMPI) has started
+bool rankOfMpirun = false;
+
+
+//- A message that waits for a reader goes to nobody if none comes: mpirun does
+//  not read any more when it is about to kill its ranks, and one that is asleep
+//  in its message would never see the signal. The system repeats the write, to
+//  what the file is then. (All calls may be made in a handler.)
+void abandonUnread(const int file)
+{
+    pollfd state = {file, POLLOUT, 0};
+    if (::poll(&state, 1, 200) == 0)
+    {
+        const int nobody = ::open("/dev/null", O_WRONLY);
+        if (nobody >= 0) ::dup2(nobody, file);
+    }
+}
+
+
 void note(int signal)
 {
+    const int before = errno;
     caught = signal;
+
+    if (rankOfMpirun && signal == SIGTERM)
+    {
+        abandonUnread(STDOUT_FILENO);
+        abandonUnread(STDERR_FILENO);
+    }
 
     // Who reads the log through a pipe gets Ctrl-C, too
     std::signal(SIGPIPE, SIG_IGN);
+    errno = before;
 }
 
 
@@ -91,6 +121,7 @@ Foam::mpm::endSignals::endSignals()
 :
     launcher_(getppid())
 {
+    rankOfMpirun = std::getenv("OMPI_COMM_WORLD_RANK");
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
     {
         const auto before = std::signal(signal, note);
