@@ -11,9 +11,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT/"etc"/"python"))
 
-# A shell's background jobs ignore Ctrl-C, and so would the runs that tests
-# interrupt
+# A shell's background jobs ignore Ctrl-C, those of nohup a hangup, and so would
+# the runs that tests interrupt
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 _lines = []
 
