@@ -16,7 +16,7 @@ import coupling  # noqa: E402
 from coupledProblem import PROBLEMS  # noqa: E402
 from mpmfoam import coupled, reference  # noqa: E402
 
-from caseBuilder import RunningCase, Setup, box  # noqa: E402
+from caseBuilder import RunningCase, Setup, box, hydrostatic  # noqa: E402
 from test_badInput import refused, words  # noqa: E402
 from test_wallJet import CLOUDS, CloudPoints, body  # noqa: E402
 from test_wallJet import bed as restingBed  # noqa: E402
@@ -159,6 +159,27 @@ def testBedAtRest(tmp_path, figures, name, level):
                        ("poreNoiseMax", 0.02), ("bedChange", 0.2)]:
         figures.atMost(key, found[key], bound)
     figures.equal("suspended points", found["suspended"], 0)
+
+
+@pytest.mark.parametrize("floor", ["noSlip", "slip"])
+def testBankAtRest(tmp_path, figures, floor):
+    """Water over an oblique bed, held so that nothing but its own forces can
+    move it: whatever is not balanced drives a current along the slope"""
+    case = Setup(
+        cells=(30, 13), h=0.01, points=2, energy=False, soilWall=floor,
+        regions={"all": hydrostatic((0, 0), (0.3, 0.1))},
+        soil={"constitutiveModel": "rigidSkeleton",
+              "rigidSkeletonCoeffs": {"rhoS": 2650, "d": 2e-3, "e0": 0.818}},
+        soilRegions={"bank": {
+            "type": "polygon",
+            "points": [(0, 0), (0.17, 0), (0.06, 0.04), (0, 0.04)]}},
+    ).until(1, 0.25).write(tmp_path/"case").prepare()
+    case.solve()
+    # 1e-3 of what water as deep as a cell runs with
+    for time in case.times[1:]:
+        speed = np.linalg.norm(case.points(time).U, axis=1)
+        figures.atMost(f"rms speed of the water at {time} s, m/s",
+                       np.sqrt(np.mean(speed**2)), 1e-4)
 
 
 def testDivergenceForm(tmp_path, figures):

@@ -787,6 +787,10 @@ static void setWaterState
             }
         }
         water.setState(r.first, V, p);
+        forAll(p, i)
+        {
+            if (hydrostatic && p[i] > 0) water.setAtRest(r.first + i, -g*up);
+        }
     }
 }
 

@@ -775,6 +775,39 @@ void Foam::mpm::nodeBoundary::activate(const bitSet& active)
 }
 
 
+void Foam::mpm::nodeBoundary::foldPressureAs(const nodeBoundary& water)
+{
+    water_ = &water;
+    waterStencil_.assign(sign_.size()/grid_.reachSize(), -1);
+    forAll(stencilIndex_, cell)
+    {
+        const label here = stencilIndex_[cell];
+        if (here >= 0) waterStencil_[here] = water.stencil(cell);
+    }
+}
+
+
+Foam::mpm::nodeField<Foam::mpm::nodeVector>
+Foam::mpm::nodeBoundary::foldedComponents() const
+{
+    nodeField<nodeVector> folded;
+    folded.assign(grid_.nNodes(), nodeVector{});
+    for (size_t i = 0; i < target_.size(); ++i)
+    {
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            if (sign_[i][d] < 0) folded[target_[i]][d] = 1;
+        }
+    }
+    grid_.exchange().sum(folded);
+    for (nodeVector& f : folded)
+    {
+        for (label d = 0; d < grid_.nDim(); ++d) f[d] = (f[d] > 0);
+    }
+    return folded;
+}
+
+
 void Foam::mpm::nodeBoundary::setInflow
 (
     const label inlet,

@@ -198,12 +198,29 @@ void Foam::mpm::waterSoilInteraction::findInside()
 Foam::mpm::nodeVector
 Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
 {
-    nodeVector sum{};
+    const label dim = grid_.nDim();
+
+    nodeVector sum{}, volume{};
     for (const auto& part : mean_)
     {
-        sum += part.second*pressureInside_[node + part.first];
+        const label i = node + part.first;
+        const nodeVector& here = pressureInside_[i];
+        for (label d = 0; d < dim; ++d)
+        {
+            // A folded force is no gradient
+            const scalar weight = part.second*(1 - folded_[i][d]);
+            sum[d] += weight*here[d];
+            volume[d] += weight*here[3];
+        }
     }
-    return sum*(1/sum[3]);
+
+    const nodeVector& own = pressureInside_[node];
+    nodeVector mean{};
+    for (label d = 0; d < dim; ++d)
+    {
+        mean[d] = folded_[node][d] ? own[d]/own[3] : sum[d]/volume[d];
+    }
+    return mean;
 }
 
 
@@ -226,7 +243,8 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     divergenceForm_(divergenceForm),
     implicitDrag_(implicitDrag),
     fields_(water.boundary().inverseVolume()),
-    nPacked_(0)
+    nPacked_(0),
+    folded_(water.boundary().foldedComponents())
 {
     if (!implicitDrag_)
     {
@@ -257,8 +275,8 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
             << nl << endl;
     }
 
-    water_.couple(fields_);
-    soil_.couple(fields_);
+    water_.couple(fields_, water_.boundary());
+    soil_.couple(fields_, water_.boundary());
 
     pressureInside_.assign(fields_.saturation.size(), nodeVector{});
     const label depth = (grid_.nDim() == 3 ? 1 : 0);
@@ -432,8 +450,8 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     // Water takes all of it, and gives soil its share. Inside the bed grains
     // feel the mean of their neighbourhood: points of sheared water integrate
     // the pressure with an error that changes from node to node, and is several
-    // times what drag and weight of a grain are. At walls a folded force is no
-    // gradient, and in water alone the gradient is another: neither takes part.
+    // times what drag and weight of a grain are. What folds at walls is no gradient,
+    // and in water alone the gradient is another: neither takes part.
     findInside();
     fields_.forNodes
     (

@@ -254,14 +254,7 @@ void Foam::mpm::waterCloud::setEntered
         if (ratio > 0) points_.column(J_)[p] = ratio;
         minJ_ = min(minJ_, J()[p]);
 
-        for (label d = 0; gradJ_ >= 0 && d < grid_.nDim(); ++d)
-        {
-            points_.column(gradJ_ + d)[p] =
-                g > 0 && in.gravity() > 0
-              ? -J()[p]*g_[grid_.cells().axis(d)]
-               /sqr(fluid_.soundSpeed(J()[p]))
-              : 0;
-        }
+        setAtRest(p, g > 0 && in.gravity() > 0 ? g_ : vector::zero);
     }
 }
 
@@ -455,6 +448,17 @@ void Foam::mpm::waterCloud::setState
         const scalar J = fluid_.volumeRatio(pressure[i]);
         points_.column(J_)[first + i] = J;
         points_.column(mass_)[first + i] = fluid_.rho0()*volume[i]/J;
+    }
+}
+
+
+void Foam::mpm::waterCloud::setAtRest(const label p, const vector& gravity)
+{
+    const scalar compression = J()[p]/sqr(fluid_.soundSpeed(J()[p]));
+    for (label d = 0; gradJ_ >= 0 && d < grid_.nDim(); ++d)
+    {
+        points_.column(gradJ_ + d)[p] =
+            -compression*gravity[grid_.cells().axis(d)];
     }
 }
 
