@@ -94,6 +94,7 @@ Foam::mpm::bedSurface::bedSurface
     area_(grid.nNodes(), nodeVector{}),
     weight_(grid.nNodes(), 0),
     perCopy_(grid.nNodes(), 0),
+    push_(grid.nNodes(), nodeVector{}),
     work_(grid.nNodes(), nodeVector{}),
     meanStress_(0)
 {
@@ -115,7 +116,7 @@ void Foam::mpm::bedSurface::update
     const std::function<bool(const label)>& wet,
     const std::function
     <
-        void(const std::function<void(const label, const nodeVector&)>&)
+        void(const setForces&)
     >& forces
 )
 {
@@ -130,6 +131,7 @@ void Foam::mpm::bedSurface::update
     // What was, and what is
     zero(force_);
     zero(area_);
+    zero(push_);
     zero(work_);
     for (const auto& range : ranges_)
     {
@@ -177,10 +179,12 @@ void Foam::mpm::bedSurface::update
     );
     forces
     (
-        [&](const label i, const nodeVector& force)
+        [&](const label i, const nodeVector& drag, const nodeVector& push)
         {
             if (!(perCopy_[i] > 0)) return;
-            for (label d = 0; d < dim; ++d) force_[i][d] = force[d];
+            for (label d = 0; d < dim; ++d) force_[i][d] = drag[d];
+            area_[i][3] = drag[3];
+            push_[i] = push;
         }
     );
     if (!grid_.exchange().idle())
@@ -192,11 +196,13 @@ void Foam::mpm::bedSurface::update
         }
         share(force_);
         share(area_);
+        share(push_);
     }
     for (label pass = 0; pass < nPasses; ++pass)
     {
         smooth(force_);
         smooth(area_);
+        smooth(push_);
     }
 
     scalar sumArea = 0;
@@ -214,6 +220,15 @@ void Foam::mpm::bedSurface::update
             {
                 area_[i] = force_[i] = nodeVector{};
                 return;
+            }
+            // Less what would push the pore water through a bed at rest
+            if (push_[i][3] > 0)
+            {
+                const scalar part = area_[i][3]/push_[i][3];
+                for (label d = 0; d < dim; ++d)
+                {
+                    force_[i][d] -= part*push_[i][d];
+                }
             }
             nodeVector normal = area_[i]*(1/area);
             for (label d = dim; d < 4; ++d) normal[d] = 0;

@@ -329,7 +329,7 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                 scalar speedSqr = 0;
                 for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
 
-                // What pushes the water at the node, as sharePressure() has it
+                // Water has what soil has no share of (sharePressure)
                 nodeVector push = water.momentum[i][dim]*gravity;
                 if (pressureInside_[i][3] > 0)
                 {
@@ -337,17 +337,12 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                         fields_.pressureForce[i]
                       - solidVolume(i)*meanPressureGradient(i);
                 }
-                const scalar pores =
-                    min
-                    (
-                        e*solidVolume(i)/max(waterVolume(i), VSMALL), scalar(1)
-                    );
-                set
-                (
-                    i,
-                    bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr))*dv
-                  - pores*push
-                );
+                push[3] = waterVolume(i);
+
+                nodeVector drag =
+                    bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr))*dv;
+                drag[3] = min(e*solidVolume(i), waterVolume(i));
+                set(i, drag, push);
             }
         }
     );
