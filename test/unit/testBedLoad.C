@@ -40,7 +40,7 @@ autoPtr<bedLoadModel> make
     dictionary dict;
     dict.name() = "materialPointProperties.soil";
     dict.set("bedLoad", name);
-    if (!coeffs.empty()) dict.set(name + "Coeffs", coeffs);
+    if (!coeffs.empty()) dict.set(word(name + "Coeffs"), coeffs);
     return bedLoadModel::New(dict, quartz(down), true);
 }
 

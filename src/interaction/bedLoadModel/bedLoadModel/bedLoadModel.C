@@ -39,7 +39,7 @@ Foam::mpm::bedLoadModel::bedLoadModel
         readBoundedOrDefault
         (
             coeffs, "averagingTime", dimTime,
-            10*b.d/std::sqrt(criticalShields_*(b.rhoS/b.rho - 1)*b.g*b.d),
+            20*b.d/std::sqrt(criticalShields_*(b.rhoS/b.rho - 1)*b.g*b.d),
             0, GREAT
         )
     )
