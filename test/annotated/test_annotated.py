@@ -16,6 +16,7 @@ ANNOTATED = ROOT/"etc"/"caseDicts"/"annotated"
 EXPLAINED_IN = {
     "src/interaction/materialPointSystem": "fvSolution",
     "src/interaction/dragModel": "materialPointProperties",
+    "src/interaction/bedLoadModel": "materialPointProperties",
     "src/interaction/erosionCriterion": "controlDict",
     "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
@@ -125,6 +126,8 @@ def testDefault(source, entry):
     ("src/materialPoint/transfer", "transferScheme", "materialPointProperties"),
     ("src/materialPoint/pointRegion", "pointRegion", "setMaterialPointsDict"),
     ("src/interaction/dragModel", "dragModel", "materialPointProperties"),
+    ("src/interaction/bedLoadModel", "bedLoadModel",
+     "materialPointProperties"),
     ("src/materialPoint/inflowOutflow/outlet", "outlet",
      "materialPointProperties"),
     ("src/interaction/erosionCriterion", "erosionCriterion", "controlDict"),
@@ -134,7 +137,7 @@ def testModels(family, base, name):
     assert len(models) > 2
     for model in models:
         # The word none is no C++ class name
-        word = "none" if model == "noDrag" else model
+        word = "none" if model in ("noDrag", "noBedLoad") else model
         if model != base:
             assert re.search(rf"\b{word}\b", explained(name)), model
 

@@ -176,7 +176,8 @@ Foam::stringList Foam::mpm::scourProfile::description() const
         "Change of the bed since the first start: lengths [m], volumes "
       + string(cloud().grid().nDim() == 2 ? "per width [m2]" : "[m3]"),
         "Part of the grains more than a cell above the bed [-]; level of the"
-        " reservoir [m]"
+        " reservoir [m]; mean stress on the bed [Pa], the layer that it can"
+        " move [m], the same in cells [-]"
     });
 }
 
@@ -191,6 +192,14 @@ Foam::wordList Foam::mpm::scourProfile::columns() const
     if (reservoir_.first() <= reservoir_.second())
     {
         names.append("reservoirLevel");
+    }
+    soilCloud::bedState bed;
+    if (soil().bed(bed))
+    {
+        names.append
+        (
+            wordList({"bedStress", "movableLayer", "movableCells"})
+        );
     }
     return names;
 }
@@ -226,6 +235,15 @@ Foam::scalarList Foam::mpm::scourProfile::values() const
     if (reservoir_.first() <= reservoir_.second())
     {
         v.append(reservoirLevel(h.water));
+    }
+    soilCloud::bedState bed;
+    if (soil().bed(bed))
+    {
+        const scalar spacing = cloud().grid().cells().spacing(vertical());
+        v.append
+        (
+            scalarList({bed.stress, bed.movable, bed.movable/spacing})
+        );
     }
     return v;
 }

@@ -321,6 +321,18 @@ void Foam::mpm::materialPointSystem::makeClouds()
         else
         {
             soilCloud::checkDictionary(dict, settings_.strictKeywords);
+            const word bedLoad
+            (
+                dict.lookupOrDefault<word>("bedLoad", "none")
+            );
+            if (!settings_.coupled && bedLoad != "none")
+            {
+                FatalIOErrorInFunction(dict)
+                    << "keyword bedLoad is " << bedLoad
+                    << ", but there is no water." << nl
+                    << "    Allowed: none, or clouds (water soil)"
+                    << exit(FatalIOError);
+            }
             soil_ = new soilCloud
             (
                 names[i], mesh_, grid_, dict, settings_, cost_, g_
@@ -886,6 +898,7 @@ void Foam::mpm::materialPointSystem::gridToParticles()
             cost_.stop();
         }
     }
+    if (interaction_.valid()) interaction_->moveSurface(deltaT);
 }
 
 
@@ -1015,6 +1028,18 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
             Info<< "--> soil: " << packed << " nodes with less than 10 %"
                 << " porosity; the soil is over-compacted there" << nl;
         }
+    }
+    soilCloud::bedState bed{};
+    if (soil_ && soil_->bed(bed) && bed.stress > 0)
+    {
+        // The grid shears its top row, a quarter of whose weight is half way
+        // down to the nodes below
+        const scalar part = bed.movable/h;
+        Info<< "soil: stress on the bed " << bed.stress
+            << " Pa (mean), which can move " << bed.movable << " m of it, "
+            << part << " cells: bed load is "
+            << (part < 0.25 ? "thinner than the grid resolves" : "resolved")
+            << nl;
     }
     if (water_)
     {

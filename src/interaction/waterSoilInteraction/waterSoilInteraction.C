@@ -224,6 +224,148 @@ Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
 }
 
 
+Foam::mpm::soilCloud::bedState
+Foam::mpm::waterSoilInteraction::bedState() const
+{
+    soilCloud::bedState b{0, 0};
+    if (surface_.valid())
+    {
+        b.stress = surface_->meanStress();
+    }
+    else
+    {
+        // Only when it is asked for: its arrays do not last
+        bedSurface surface(grid_, fields_, water_.boundary());
+        findSurface(surface);
+        b.stress = surface.meanStress();
+    }
+
+    // Friction against the submerged weight of the layer
+    const soilModel& model = soil_.model();
+    b.movable =
+        b.stress
+       *(1 + model.e0())
+       /(
+            model.frictionCoefficient()
+           *(model.rhoS() - water_.fluid().rho0())*mag(soil_.gravity())
+        );
+    return b;
+}
+
+
+void Foam::mpm::waterSoilInteraction::readBedLoad
+(
+    const dictionary& properties,
+    const bool strictKeywords
+)
+{
+    const dictionary& dict = properties.subDict("soil");
+    const lattice& cells = grid_.cells();
+    const vector& g = soil_.gravity();
+
+    bedLoadModel::bed b;
+    b.nDim = grid_.nDim();
+    b.d = soil_.model().d();
+    b.rhoS = soil_.model().rhoS();
+    b.mu = soil_.model().frictionCoefficient();
+    b.solidFraction = 1/(1 + soil_.model().e0());
+    b.rho = water_.fluid().rho0();
+    b.g = mag(g);
+    b.down = nodeVector{};
+    for (label d = 0; d < b.nDim; ++d)
+    {
+        b.down[d] = g[cells.axis(d)]/max(b.g, VSMALL);
+    }
+    b.h = cells.minSpacing();
+    if
+    (
+        b.mu > 0 && b.g > 0 && b.rhoS > b.rho
+     && !soil_.model().held() && drag_->active() && !divergenceForm_
+    )
+    {
+        soil_.setBed([this] { return bedState(); });
+    }
+
+    bedLoad_ = bedLoadModel::New(dict, b, strictKeywords);
+    if (!bedLoad_->active())
+    {
+        bedLoad_.clear();
+        return;
+    }
+
+    const char* missing =
+        soil_.model().held() || !(b.mu > 0) ? "a soil that yields by friction"
+      : !(b.g > 0) ? "gravity"
+      : !(b.rhoS > b.rho) ? "grains heavier than water"
+      : !drag_->active() ? "drag"
+      : divergenceForm_ ? "pressureForm gradient"
+      : nullptr;
+    if (missing)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword bedLoad is " << bedLoad_->type() << ", which needs "
+            << missing << '.' << nl
+            << "    Allowed here: bedLoad none" << exit(FatalIOError);
+    }
+    surface_.reset(new bedSurface(grid_, fields_, water_.boundary()));
+    soil_.addBedStress();
+}
+
+
+void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
+{
+    const label dim = grid_.nDim();
+    const std::vector<scalar>& inverseVolume =
+        water_.boundary().inverseVolume();
+    const nodalFields& soil = soil_.nodes();
+    const nodalFields& water = water_.nodes();
+    const scalar perRhoS = 1/soil_.model().rhoS();
+    const scalar e = soil_.model().e0();
+
+    nodeVector gravity{};
+    for (label d = 0; d < dim; ++d)
+    {
+        gravity[d] = water_.acceleration()[grid_.cells().axis(d)];
+    }
+
+    surface.update
+    (
+        1/(1 + e),
+        [&](const label i)
+        {
+            return soil.momentum[i][dim]*perRhoS*inverseVolume[i];
+        },
+        [&](const label i) { return water.momentum[i][dim] > 0; },
+        [&](const auto& set)
+        {
+            const label n = nodes_.size();
+            for (label k = 0; k < n; ++k)
+            {
+                const label i = nodes_[k];
+                const nodeVector dv = water.velocity[i] - soil.velocity[i];
+                scalar speedSqr = 0;
+                for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
+
+                // Water has what soil has no share of (sharePressure)
+                nodeVector push = water.momentum[i][dim]*gravity;
+                if (pressureInside_[i][3] > 0)
+                {
+                    push +=
+                        fields_.pressureForce[i]
+                      - solidVolume(i)*meanPressureGradient(i);
+                }
+                push[3] = waterVolume(i);
+
+                nodeVector drag =
+                    bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr))*dv;
+                drag[3] = min(e*solidVolume(i), waterVolume(i));
+                set(i, drag, push);
+            }
+        }
+    );
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
@@ -274,6 +416,8 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
             << "    Usual: rhoS > rho0 (rhoS is of the solid, without pores)"
             << nl << endl;
     }
+
+    readBedLoad(properties, strictKeywords);
 
     water_.couple(fields_, water_.boundary());
     soil_.couple(fields_, water_.boundary());
@@ -540,6 +684,20 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
     water_.boundary().constrain(vw);
     soil_.boundary().constrain(vs);
     cost_.stop();
+
+    if (surface_.valid())
+    {
+        cost_.start("surface of the bed");
+        findSurface(*surface_);
+        cost_.stop();
+    }
+}
+
+
+void Foam::mpm::waterSoilInteraction::moveSurface(const scalar deltaT)
+{
+    if (!surface_.valid()) return;
+    soil_.slip(deltaT, surface_->stress(), surface_->normal(), *bedLoad_);
 }
 
 
@@ -562,6 +720,18 @@ void Foam::mpm::waterSoilInteraction::effects
     (
         FixedList<string, 3>
         ({"  drag", drag_->active() ? "on" : "off", drag_->type()})
+    );
+    table.append
+    (
+        FixedList<string, 3>
+        ({
+            "  bed load",
+            bedLoad_.valid() ? "on" : "off",
+            bedLoad_.valid()
+          ? bedLoad_->type() + ", stress averaged over "
+          + Foam::name(bedLoad_->averagingTime()) + " s"
+          : "soil/bedLoad"
+        })
     );
 }
 

@@ -152,6 +152,7 @@ Foam::mpm::soilCloud::soilCloud
     compression_(-1),
     compressionMean_(-1),
     compressionGradient_(-1),
+    bedStress_(-1),
     waterMomentum_(nullptr),
     liquidViscosity_(0),
     liquidSoundSpeed_(0),
@@ -223,7 +224,9 @@ void Foam::mpm::soilCloud::checkDictionary
             "flipDampingRate",
             "corners",
             "bodyForce",
-            "inflowOutflow"
+            "inflowOutflow",
+            "bedLoad",
+            dict.lookupOrDefault<word>("bedLoad", "none") + "Coeffs"
         },
         strictKeywords
     );
@@ -240,6 +243,26 @@ void Foam::mpm::soilCloud::setLiquid
     waterMomentum_ = &momentum;
     liquidViscosity_ = viscosity;
     liquidSoundSpeed_ = soundSpeed;
+}
+
+
+void Foam::mpm::soilCloud::addBedStress()
+{
+    bedStress_ = points_.add("bedStress", pointStorage::vectorValue);
+}
+
+
+void Foam::mpm::soilCloud::slip
+(
+    const scalar deltaT,
+    const nodeField<nodeVector>& stress,
+    const nodeField<nodeVector>& normal,
+    const surfaceSlip& law
+)
+{
+    cost_.start("soil: bed load");
+    kernels_->slip(deltaT, stress, normal, law);
+    cost_.stop();
 }
 
 

@@ -7,6 +7,8 @@ License
 #include "soilMaterial.H"
 #include "soilCloud.H"
 #include "cloudKernelsFor.H"
+#include <algorithm>
+#include <cmath>
 
 namespace Foam
 {
@@ -263,6 +265,79 @@ public:
             c.template view<dim>(), m, deltaT, c.nodes_, c.movers_, c.sums_
         );
         c.cost_.stop();
+    }
+
+
+    virtual void slip
+    (
+        const scalar deltaT,
+        const nodeField<nodeVector>& stress,
+        const nodeField<nodeVector>& normal,
+        const surfaceSlip& law
+    )
+    {
+        soilCloud& c = cloud_;
+        scalar* own[dim];
+        for (int d = 0; d < dim; ++d)
+        {
+            own[d] = c.points_.column(c.bedStress_ + d);
+        }
+        const scalar part = 1 - std::exp(-deltaT/law.averagingTime());
+
+        const size_t nMovers = c.movers_.size();
+        kernels_.shiftPoints
+        (
+            c.template view<dim>(), stress, normal,
+            [&]
+            (
+                const label begin,
+                const label n,
+                const auto& tau,
+                const auto& up,
+                auto& shift
+            )
+            {
+                const scalar* ownStress[dim];
+                const scalar* upward[dim];
+                scalar* velocity[dim];
+                for (int d = 0; d < dim; ++d)
+                {
+                    ownStress[d] = own[d] + begin;
+                    upward[d] = up[d];
+                    velocity[d] = shift[d];
+                }
+                for (label i = 0; i < n; ++i)
+                {
+                    // Normals of nodes far from the surface are zero
+                    scalar near = 0;
+                    for (int d = 0; d < dim; ++d) near += sqr(up[d][i]);
+                    if (near < 0.25) continue;
+
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        scalar& mean = own[d][begin + i];
+                        mean += part*(tau[d][i] - mean);
+                    }
+                }
+                law.velocity(n, ownStress, upward, up[dim], velocity);
+                for (int d = 0; d < dim; ++d)
+                {
+                    for (label i = 0; i < n; ++i) shift[d][i] *= deltaT;
+                }
+            },
+            c.movers_
+        );
+
+        // Those that moved anyhow are there already
+        if (c.movers_.size() > nMovers)
+        {
+            std::sort(c.movers_.begin(), c.movers_.end());
+            c.movers_.erase
+            (
+                std::unique(c.movers_.begin(), c.movers_.end()),
+                c.movers_.end()
+            );
+        }
     }
 
 

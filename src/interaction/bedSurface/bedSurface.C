@@ -1,0 +1,260 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "bedSurface.H"
+#include "backgroundGrid.H"
+#include "nodeBoundary.H"
+#include "couplingFields.H"
+#include "PstreamReduceOps.H"
+#include <algorithm>
+#include <cmath>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<class Op>
+void Foam::mpm::bedSurface::forInner(const Op& op) const
+{
+    for (const auto& range : ranges_)
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            if (inner_[i]) op(i);
+        }
+    }
+}
+
+
+void Foam::mpm::bedSurface::zero(nodeField<nodeVector>& field) const
+{
+    for (const auto& range : ranges_)
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            field[i] = nodeVector{};
+        }
+    }
+    for (const label i : shared_) field[i] = nodeVector{};
+}
+
+
+void Foam::mpm::bedSurface::share(nodeField<nodeVector>& field) const
+{
+    if (grid_.exchange().idle()) return;
+
+    // Ranks that know all neighbours of a node say the same; the others hear
+    // it
+    grid_.exchange().sum(field);
+    for (const label i : shared_) field[i] *= perCopy_[i];
+}
+
+
+void Foam::mpm::bedSurface::smooth(nodeField<nodeVector>& field)
+{
+    // What does not take part reflects, so that nothing is lost
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        const label stride = grid_.stride(d);
+        zero(work_);
+        forInner
+        (
+            [&](const label i)
+            {
+                if (!(perCopy_[i] > 0)) return;
+                nodeVector mean = field[i];
+                for (const label j : {i - stride, i + stride})
+                {
+                    if (perCopy_[j] > 0) mean += 0.25*(field[j] - field[i]);
+                }
+                work_[i] = mean;
+            }
+        );
+        field.swap(work_);
+        share(field);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::bedSurface::bedSurface
+(
+    const backgroundGrid& grid,
+    const couplingFields& fields,
+    const nodeBoundary& boundary
+)
+:
+    grid_(grid),
+    fields_(fields),
+    inverseVolume_(boundary.inverseVolume()),
+    inner_(grid.nNodes(), 0),
+    shared_(grid.exchange().sharedNodes()),
+    force_(grid.nNodes(), nodeVector{}),
+    area_(grid.nNodes(), nodeVector{}),
+    weight_(grid.nNodes(), 0),
+    perCopy_(grid.nNodes(), 0),
+    push_(grid.nNodes(), nodeVector{}),
+    work_(grid.nNodes(), nodeVector{}),
+    meanStress_(0)
+{
+    const label size = grid.reachSize();
+    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
+    {
+        const label first = grid.boxCell(celli) + grid.reachOffset();
+        for (label t = 0; t < size; ++t) inner_[first + grid.reachNode(t)] = 1;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::bedSurface::update
+(
+    const scalar bedFraction,
+    const std::function<scalar(const label)>& solidFraction,
+    const std::function<bool(const label)>& wet,
+    const std::function
+    <
+        void(const setForces&)
+    >& forces
+)
+{
+    const label dim = grid_.nDim();
+    const lattice& cells = grid_.cells();
+
+    // Of a node whose cells are all there
+    const scalar whole = (1 + 1e-6)/cells.cellVolume();
+    const scalar volume = cells.cellVolume();
+    const scalar h = cells.minSpacing();
+
+    // What was, and what is
+    zero(force_);
+    zero(area_);
+    zero(push_);
+    zero(work_);
+    for (const auto& range : ranges_)
+    {
+        std::fill
+        (
+            perCopy_.begin() + range.first, perCopy_.begin() + range.second, 0
+        );
+    }
+    for (const label i : shared_) perCopy_[i] = 0;
+    ranges_ = fields_.ranges;
+
+    // Nodes with water that have soil, or a neighbour with soil
+    forInner
+    (
+        [&](const label i)
+        {
+            if (!wet(i) || !(inverseVolume_[i] > 0 && inverseVolume_[i] < whole))
+            {
+                return;
+            }
+            bool soil = solidFraction(i) > 0;
+            nodeVector area{};
+            scalar slopeSqr = 0;
+            for (label d = 0; d < dim; ++d)
+            {
+                const label s = grid_.stride(d);
+                const scalar below = solidFraction(i - s);
+                const scalar above = solidFraction(i + s);
+                soil = soil || below > 0 || above > 0;
+                const scalar slope =
+                    (below - above)/(2*cells.spacing(d)*bedFraction);
+                slopeSqr += sqr(slope);
+                area[d] = volume*slope;
+            }
+            if (!soil) return;
+
+            perCopy_[i] = 1;
+            area_[i] = area;
+            const scalar phi = solidFraction(i)/bedFraction;
+            weight_[i] =
+                min(max(2*(1 - phi), scalar(0)), scalar(1))
+               *min(4*h*std::sqrt(slopeSqr), scalar(1));
+            force_[i][3] = weight_[i]*solidFraction(i)*volume;
+        }
+    );
+    forces
+    (
+        [&](const label i, const nodeVector& drag, const nodeVector& push)
+        {
+            if (!(perCopy_[i] > 0)) return;
+            for (label d = 0; d < dim; ++d) force_[i][d] = drag[d];
+            area_[i][3] = drag[3];
+            push_[i] = push;
+        }
+    );
+    if (!grid_.exchange().idle())
+    {
+        grid_.exchange().sum(perCopy_);
+        for (const label i : shared_)
+        {
+            perCopy_[i] = perCopy_[i] > 0 ? 1/perCopy_[i] : 0;
+        }
+        share(force_);
+        share(area_);
+        share(push_);
+    }
+    for (label pass = 0; pass < nPasses; ++pass)
+    {
+        smooth(force_);
+        smooth(area_);
+        smooth(push_);
+    }
+
+    scalar sumArea = 0;
+    nodeVector sumForce{};
+    const scalar least = leastArea*volume/h;
+    forInner
+    (
+        [&](const label i)
+        {
+            if (!(perCopy_[i] > 0)) return;
+            scalar areaSqr = 0;
+            for (label d = 0; d < dim; ++d) areaSqr += sqr(area_[i][d]);
+            const scalar area = std::sqrt(areaSqr);
+            if (area < least)
+            {
+                area_[i] = force_[i] = nodeVector{};
+                return;
+            }
+            // Less what would push the pore water through a bed at rest
+            if (push_[i][3] > 0)
+            {
+                const scalar part = area_[i][3]/push_[i][3];
+                for (label d = 0; d < dim; ++d)
+                {
+                    force_[i][d] -= part*push_[i][d];
+                }
+            }
+            nodeVector normal = area_[i]*(1/area);
+            for (label d = dim; d < 4; ++d) normal[d] = 0;
+
+            scalar into = 0;
+            for (label d = 0; d < dim; ++d) into += force_[i][d]*normal[d];
+            nodeVector stress = (force_[i] - into*normal)*(1/area);
+            const scalar thickness = force_[i][3]/area;
+
+            sumArea += grid_.share(i)*area;
+            sumForce += (grid_.share(i)*area)*stress;
+
+            stress[3] = 0;
+            area_[i] = normal;
+            area_[i][dim] = thickness > 0 ? weight_[i]/thickness : 0;
+            if (dim == 2) stress[2] = 0;
+            force_[i] = stress;
+        }
+    );
+    reduce(sumArea, sumOp<scalar>());
+    scalar sumSqr = 0;
+    for (label d = 0; d < dim; ++d)
+    {
+        sumSqr += sqr(returnReduce(scalar(sumForce[d]), sumOp<scalar>()));
+    }
+    meanStress_ = sumArea > 0 ? std::sqrt(sumSqr)/sumArea : 0;
+}
+
+// ************************************************************************* //
