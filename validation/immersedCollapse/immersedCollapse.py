@@ -17,45 +17,26 @@ from coupledProblem import PROBLEMS  # noqa: E402
 from mpmfoam import coupled, metrics, reference, study, style  # noqa: E402
 
 
-POINTS = "system/setMaterialPointsDict"
-PROPERTIES = "constant/materialPointProperties"
-MODEL = "soil/elastoplasticMuICoeffs"
-
-
-def collapse(name, h, end, loose=False, variant=None):
-    """Dense: 0.042 m at a solid fraction of 0.60; loose: 0.048 m at 0.55.
-    variant: settings beside"""
-    variant = variant or {}
+def collapse(name, h, end, loose=False):
+    """Dense: 0.042 m at a solid fraction of 0.60; loose: 0.048 m at 0.55"""
     return study.Run(
         name, [REPOSITORY/"tutorials"/"immersedCollapse"], study.MPMFOAM,
         {"system/blockMeshDict": {
             "h": h, "nx": round(0.3/h), "ny": round(0.084/h)},
-         POINTS: {
-             "soil/regions/column/max": [0.06, 0.048 if loose else 0.042, 1],
-             **variant.get(POINTS, {})},
-         PROPERTIES: {f"{MODEL}/e0": 0.818 if loose else 0.6667,
-                      **variant.get(PROPERTIES, {})},
+         "system/setMaterialPointsDict": {
+             "soil/regions/column/max": [0.06, 0.048 if loose else 0.042, 1]},
+         "constant/materialPointProperties": {
+             "soil/elastoplasticMuICoeffs/e0": 0.818 if loose else 0.6667},
          # Meets the times of the measured profiles
          "system/controlDict": {
              "endTime": end, "writeInterval": 0.22 if loose else 0.25}},
-        about={"h": h, "density": "loose" if loose else "dense",
-               "variant": bool(variant)})
+        about={"h": h, "density": "loose" if loose else "dense"})
 
 
 RUNS = [collapse("loose_h0.006", 0.006, 6.6, loose=True),
         collapse("dense_h0.006", 0.006, 18),
         collapse("loose_h0.004", 0.004, 6.6, loose=True),
-        collapse("dense_h0.004", 0.004, 12),
-        # What the profile of the dense one hangs on: the critical solid
-        # fraction (0.57 for 0.58), the plastic strain of hardening; and what
-        # the loose one: points per cell
-        collapse("dense_h0.006_eRef0.754", 0.006, 6, variant={
-            PROPERTIES: {f"{MODEL}/eRef": 0.754}}),
-        collapse("dense_h0.006_kp0.001", 0.006, 6, variant={
-            PROPERTIES: {f"{MODEL}/kp": 0.001}}),
-        collapse("loose_h0.006_points4", 0.006, 6.6, True, {
-            POINTS: {"water/pointsPerDirection": 4,
-                     "soil/pointsPerDirection": 4}})]
+        collapse("dense_h0.004", 0.004, 12)]
 
 
 def evaluate(done, results):
@@ -70,8 +51,7 @@ def evaluate(done, results):
             for column, value in zip(rows.values(),
                                      (name, t, front, pressure)):
                 column.append(value)
-    grids = {n: r for n, r in done.items() if not r.about["variant"]}
-    finest = [min((r for r in grids.values() if r.about["density"] == density),
+    finest = [min((r for r in done.values() if r.about["density"] == density),
                   key=lambda r: r.about["h"], default=None)
               for density in coupled.RONDON]
     finest = [run for run in finest if run]
@@ -81,7 +61,7 @@ def evaluate(done, results):
         PROBLEMS["immersedCollapse"][1](row, run.case)
         row[0].set_title(f"{run.about['density']}, h = {run.about['h']:g}")
     # The other grids, dashed
-    for run in grids.values():
+    for run in done.values():
         for other, row in zip(finest, panels):
             if run.name != other.name and (
                     run.about["density"] == other.about["density"]):
