@@ -79,7 +79,8 @@ def immersedCollapse(case):
             "overlapMeanMax": max(e[0] for e in excess),
             "overlapMax": max(e[1] for e in excess),
             "porePressureMin": rows[:, 3].min(),
-            "porePressureEarlyMean": early[:, 3].mean()}
+            "porePressureEarlyMean": early[:, 3].mean(),
+            **(coupled.collapseMisfit(case) if rows[-1, 0] > 1.5 else {})}
 
 
 # --- pictures -------------------------------------------------------------
@@ -167,31 +168,28 @@ def drawBed(panel, case, time=None, **line):
 def drawCollapse(panels, case):
     """Profiles, front, and pore pressure, beside the experiment"""
     profile, front, pressure = panels
-    rows = coupled.collapseCourse(case)
+    rows, measured = coupled.collapseCourse(case), coupled.rondon(case)
     end = rows[-1, 0]
-    shown = [t for t in (3, 6, 9, 12, 18, 60) if t <= end + 0.5]
-    for i, t in enumerate(shown or [end]):
-        colour = style.COLOURS[i % len(style.COLOURS)]
-        name = coupled.profileTime(case, t)
-        table = np.genfromtxt(name, delimiter=",", names=True)
-        bed = table["bed"]
-        profile.plot(100*table["x"], 100*bed, color=colour,
+    times = [t for t in measured["profiles"] if t <= end + 0.5]
+    for t, colour in zip(times or [end], style.COLOURS):
+        table = np.genfromtxt(coupled.profileTime(case, t), delimiter=",",
+                              names=True)
+        profile.plot(100*table["x"], 100*table["bed"], color=colour,
                      label=f"{t:g} s")
-        if t in (3, 6, 9, 12, 18, 60):
-            data = reference.data(f"sedfoam_RondonDenseL6H4.2_T{t:g}s.csv")
-            profile.plot(100*data["x"], 100*data["y"], "o", color=colour,
-                         markersize=2.5)
-    profile.set(xlabel="x [cm]", ylabel="y [cm]", xlim=(0, 16), ylim=(0, 5))
+        if times:
+            x, y = measured["profiles"][t]
+            profile.plot(100*x, 100*y, "o", color=colour, markersize=2.5)
+    profile.set(xlabel="x [cm]", ylabel="y [cm]", ylim=(0, 5),
+                xlim=(0, 100*rows[-1, 1] + 3))
     profile.legend(title="points: Rondon et al. 2011", ncols=2)
     front.plot(rows[:, 0], 100*rows[:, 1], color=style.MPM, label="mpmFoam")
-    data = reference.data("sedfoam_RondonDenseL6H4.2_FRONT.csv")
-    front.plot(data["t"], data["x"], "o", color=style.REFERENCE,
+    t, x = measured["front"]
+    front.plot(t, 100*x, "o", color=style.REFERENCE,
                label="Rondon et al. 2011")
     front.set(xlabel="t [s]", ylabel="front [cm]", xlim=(0, max(end, 3)))
     front.legend()
     pressure.plot(rows[:, 0], rows[:, 3], color=style.MPM)
-    data = reference.data("sedfoam_RondonDenseL6H4.2_Pressure.csv")
-    pressure.plot(data["t"], data["p"], "o", color=style.REFERENCE)
+    pressure.plot(*measured["pressure"], "o", color=style.REFERENCE)
     pressure.axhline(0, color="0.6", linewidth=0.6)
     pressure.set(xlabel="t [s]", ylabel="excess pore pressure\n"
                  "at the floor, x = 2 cm [Pa]", xlim=(0, max(end, 3)))

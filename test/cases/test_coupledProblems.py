@@ -1,5 +1,6 @@
 """Water with soil on problems with known answers: the tutorials of these names,
-short. The longer matrix is validation/coupling, whose runs these are."""
+short. The longer matrices are validation/coupling and validation/
+immersedCollapse, whose runs these are."""
 
 import shutil
 import sys
@@ -9,10 +10,12 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT/"validation"/"coupling"))
+sys.path[:0] = [str(ROOT/"validation"/name)
+                for name in ("coupling", "immersedCollapse")]
 sys.path.insert(0, str(ROOT/"etc"/"python"))
 
 import coupling  # noqa: E402
+import immersedCollapse  # noqa: E402
 from coupledProblem import PROBLEMS  # noqa: E402
 from mpmfoam import coupled, reference  # noqa: E402
 
@@ -208,7 +211,7 @@ def testUnknownPressureForm(tmp_path, figures):
 @pytest.fixture(scope="module")
 def collapse(tmp_path_factory):
     """0.3 s of the collapse of a dense column, coarse"""
-    run = coupling.collapse("coarse", h=0.006, end=0.3, points=3)
+    run = immersedCollapse.collapse("coarse", h=0.006, end=0.3)
     run.settings["system/controlDict"]["writeInterval"] = 0.1
     case = solved(tmp_path_factory.mktemp("collapse"), run)
     return RunningCase(case.path, Setup(cells=(50, 14), h=0.006, regions={}))
@@ -279,7 +282,7 @@ def testLooseGrainsFlowAsASuspension(tmp_path, figures):
     carries them for seconds; without it they flow like water"""
     course = {}
     for flow in ("BoyerGuazzelliPouliquen", "none"):
-        run = coupling.collapse(flow, h=0.006, end=1.4, points=3, loose=True)
+        run = immersedCollapse.collapse(flow, h=0.006, end=1.4, loose=True)
         run.settings[coupling.PROPERTIES][
             "soil/elastoplasticMuICoeffs/viscousFlow"] = flow
         run.settings["system/controlDict"]["writeInterval"] = 0.2

@@ -91,24 +91,6 @@ def bed(name, h=0.01, level=0.3, end=10, form="gradient", **about):
         h=h, level=level, **about)
 
 
-def collapse(name, h=0.003, end=18, cap=15, points=4, loose=False):
-    """Rondon's column of 0.042 m at a solid fraction of 0.60; loose, of
-    0.048 m at 0.55"""
-    return run(
-        "immersedCollapse", name,
-        {"system/blockMeshDict": {"h": h, "nx": round(0.3/h),
-                                  "ny": round(0.084/h)},
-         "system/fvSolution": {"MPM/maxSoilSoundSpeed": cap},
-         POINTS: {"water/pointsPerDirection": points,
-                  "soil/pointsPerDirection": points,
-                  "soil/regions/column/max": [
-                      0.06, 0.048 if loose else 0.042, 1]},
-         PROPERTIES: {"soil/elastoplasticMuICoeffs/e0":
-                      0.818 if loose else 0.6667},
-         "system/controlDict": {"endTime": end}},
-        h=h, end=end)
-
-
 RUNS = (
     [seepage(f"q{q}", q) for q in DISCHARGES]
     + [seepage(f"whole_q{q}", q, whole=True) for q in DISCHARGES]
@@ -121,7 +103,6 @@ RUNS = (
        bed("inAir", level=0.1, end=5),
        bed("divergence", end=1, form="divergence")]
     + [run("wettingFront", "h0.01", {})]
-    + [collapse("h0.003"), collapse("h0.003_points2", end=3, points=2)]
 )
 
 
@@ -216,13 +197,6 @@ def evaluate(done, results):
                                          layout="constrained", sharey=True)
         drawDestroyed(panels, done)
         style.save(fig, results/"pressureForm.png")
-    if "immersedCollapse_h0.003" in done:
-        fig, panels = style.plt.subplots(1, 3, figsize=(12, 3.4),
-                                         layout="constrained")
-        PROBLEMS["immersedCollapse"][1](
-            panels, done["immersedCollapse_h0.003"].case)
-        style.save(fig, results/"immersedCollapse.png")
-
     out.update(study.provenance(done))
     reference.writeCsv(results/"coupling.csv", rows, "SI units")
     metrics.writeMetrics(results/"metrics.json", {

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import foamFile
+from . import foamFile, reference
 from .postProcessing import readDat
 
 G = 9.81
@@ -349,6 +349,59 @@ def collapseCourse(case, probe=0.02):
         rows.append((float(time), np.sort(s[:, 0])[int(0.995*len(s))],
                      s[s[:, 0] < 2*h, 1].max(), excess))
     return np.array(rows)
+
+
+# What Rondon, Pouliquen and Aussillous (2011) measured: names of the files and
+# times of the profiles
+RONDON = {"dense": ("sedfoam_RondonDenseL6H4.2", (3, 6, 9, 12, 18, 60)),
+          "loose": ("sedfoam_RondonLooseL6H4.8", (0.66, 1.32, 2, 4))}
+
+
+def rondon(case):
+    """Those of a case, by its column; front in m"""
+    height = box(case, "column")[1][1]
+    name, times = RONDON["loose" if height > 0.045 else "dense"]
+    front, pressure = (reference.data(f"{name}_{what}.csv")
+                       for what in ("FRONT", "Pressure"))
+    return {"height": height, "front": (front["t"], 0.01*front["x"]),
+            "pressure": (pressure["t"], pressure["p"]),
+            "profiles": {t: tuple(reference.data(
+                f"{name}_T{t:g}s.csv")[c] for c in "xy") for t in times}}
+
+
+def collapseMisfit(case, early=6):
+    """Against the measurements. Front from 1 s on: ratio less 1; profiles: rms
+    over the height of the column, the mean of the measured times; pore
+    pressure of the first seconds: rms over the largest measured one"""
+    measured, rows = rondon(case), collapseCourse(case)
+    end = rows[-1, 0]
+    t, x = (np.array(c) for c in measured["front"])
+    here = (t >= 1) & (t <= end)
+    front = np.interp(t[here], rows[:, 0], rows[:, 1])/x[here] - 1
+    profiles = {}
+    for time, (x, y) in measured["profiles"].items():
+        if time <= end + 0.1:
+            table = np.genfromtxt(profileTime(case, time), delimiter=",",
+                                  names=True)
+            bed = np.nan_to_num(table["bed"])
+            last = max(x.max(), table["x"][bed > 0].max())
+            at = np.linspace(0, 1.1*last, 400)
+            error = (np.interp(at, table["x"], bed)
+                     - np.interp(at, x, y, right=0))
+            profiles[time] = rms(error[at <= table["x"].max()]
+                                 )/measured["height"]
+    t, p = (np.array(c) for c in measured["pressure"])
+    here = (t >= 1) & (t <= min(end, early))
+    out = {"frontErrorMax": max(front, key=abs),
+           "frontErrorMean": front.mean(),
+           **{f"profileRms_t{t:g}": v for t, v in profiles.items()}}
+    if profiles:
+        out["profileRmsMean"] = np.mean(list(profiles.values()))
+    if here.any():
+        out["porePressureRms"] = rms(
+            np.interp(t[here], rows[:, 0], rows[:, 3]) - p[here]
+            )/np.abs(p).max()
+    return out
 
 
 def overlap(case, time):
