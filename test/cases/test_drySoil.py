@@ -150,6 +150,49 @@ def testBlockSlides(tmp_path, figures):
                        abs(speed/(exact*float(time)) - 1), 0.01)
 
 
+def slab(tmp_path, coefficient, angle=10, end=2):
+    """Endless, 10 cells thick, on a wall with friction"""
+    angle = np.radians(angle)
+    case = Setup(
+        cells=(10, 14), h=0.005, regions={}, energy=False, points=2,
+        g=(G*np.sin(angle), -G*np.cos(angle), 0),
+        soilWall={"type": "frictional", "frictionCoefficient": coefficient},
+        soil={"DruckerPragerCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.695, "E": 1e5, "nu": 0.2,
+            "phi": 35, "psi": 0}},
+        soilRegions={"slab": box((0, 0), (0.05, 0.05), stress="geostatic")},
+    ).cyclic("x").until(end, 0.1).write(tmp_path/"case").prepare()
+    case.solve()
+    return case
+
+
+@pytest.mark.parametrize("coefficient", [0.3, 0.6])
+def testSlabRests(tmp_path, figures, coefficient):
+    """Below the friction angles of the wall (17, 31 degrees) and of the soil:
+    it has no reason to move at all"""
+    case = slab(tmp_path, coefficient)
+    places = []
+    for time in case.times:
+        points = CloudPoints(case, "soil", time)
+        places.append(points.x[np.argsort(points.id)])
+    steps = np.diff([x[:, 0] for x in places], axis=0)
+    steps -= 0.05*np.round(steps/0.05)
+    figures.atMost("mean way in 1.9 s, mm",
+                   1e3*abs(steps[1:].sum(axis=0).mean()), 0.05)
+
+
+def testWallTakesFrictionAlone(tmp_path, figures):
+    """Momentum along a wall changes by gravity and by mu of the weight: a
+    frictional wall without friction takes nothing, to rounding, though the
+    soil is sheared beside it"""
+    case = slab(tmp_path, 0, end=0.2)
+    points = last(case)
+    momentum = (points.mass*points.U[:, 0]).sum()
+    exact = points.mass.sum()*G*np.sin(np.radians(10))*0.2
+    figures.atMost("error of the momentum, relative",
+                   abs(momentum/exact - 1), 1e-10)
+
+
 def testCylinderCollapses(tmp_path, figures):
     """In 3D: it flows to all sides alike, and rests"""
     n = 2

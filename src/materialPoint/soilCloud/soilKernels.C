@@ -128,6 +128,7 @@ public:
 
         c.cost_.start("soil: nodes");
         this->nodalVelocities();
+        c.boundary_.keepVelocities(c.nodes_.velocity, c.nodes_.wallVelocity);
 
         // The solid fraction that the grid shows, into the scalar slot
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
@@ -196,13 +197,9 @@ public:
             begin = end;
         }
         this->exchangeForces();
-        if (!c.nodes_.wallForce.empty())
-        {
-            // Before the pressure of the water adds to the forces: friction
-            // is of the effective stress
-            c.grid_.exchange().sum(c.nodes_.wallForce);
-            c.boundary_.addWallForces(c.nodes_.force, c.nodes_.wallForce);
-        }
+        // Before the pressure of the water adds to the forces: friction is of
+        // the effective stress
+        c.boundary_.findWallForces(c.nodes_.force, c.nodes_.wallForce);
         this->filter();
         c.cost_.stop();
     }
