@@ -196,9 +196,7 @@ Foam::mpm::soilCloud::soilCloud
     selectTransfer
     (
         grid.shapeFunction() == linear::name ? "FLIP" : "APIC",
-        mag(g) > 0
-      ? apicRateOfFall*std::sqrt(mag(g)/grid.cells().minSpacing())
-      : apicRateAtRest
+        apicRate*fallRate()
     );
     kernels_ = newSoilKernels(*this, transfer_->affine());
 }

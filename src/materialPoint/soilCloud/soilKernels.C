@@ -42,7 +42,7 @@ class soilKernelsFor
             c.points_.column(c.voidRatio_),
             1/c.model_->rhoS(),
             {},
-            soilCloud::compactionRate,
+            soilCloud::compactionRate*c.fallRate(),
             smooth ? c.points_.column(c.compression_) : nullptr,
             smooth ? c.points_.column(c.compressionMean_) : nullptr,
             {},
