@@ -199,8 +199,7 @@ class Setup:
         soil = {"constitutiveModel": "DruckerPrager",
                 "DruckerPragerCoeffs": {
                     "rhoS": RHO_S, "d": 0.85e-3, "e0": 0.695, "E0": 216,
-                    "n": 0.5, "nu": 0.2, "phi": 35, "psi": 0},
-                "transfer": "FLIP", "flipDampingRate": 20}
+                    "n": 0.5, "nu": 0.2, "phi": 35, "psi": 0}}
         if self.soil.get("constitutiveModel", "DruckerPrager") in (
                 k[:-len("Coeffs")] for k in self.soil if k.endswith("Coeffs")):
             # Those of another model

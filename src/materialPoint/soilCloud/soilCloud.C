@@ -192,9 +192,13 @@ Foam::mpm::soilCloud::soilCloud
     }
     if (returnReduce(boundary_.frictional(), orOp<bool>()))
     {
-        nodes_.wallForce.assign(grid.nNodes(), nodeVector{});
+        nodes_.ghostMomentum.assign(grid.nNodes(), nodeVector{});
     }
-    selectTransfer("FLIP", defaultApicRate);
+    selectTransfer
+    (
+        grid.shapeFunction() == linear::name ? "FLIP" : "APIC",
+        apicRate*fallRate()
+    );
     kernels_ = newSoilKernels(*this, transfer_->affine());
 }
 
@@ -268,11 +272,14 @@ void Foam::mpm::soilCloud::slip
 
 void Foam::mpm::soilCloud::applyWallFriction(const scalar deltaT)
 {
-    if (nodes_.wallForce.empty()) return;
-
     boundary_.applyFriction
     (
-        nodes_.wallForce, nodes_.momentum, deltaT, nodes_.velocity
+        nodes_.wallForce,
+        nodes_.wallVelocity,
+        nodes_.ghostMomentum,
+        nodes_.momentum,
+        deltaT,
+        nodes_.velocity
     );
 }
 
@@ -534,7 +541,11 @@ void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
     (
         "  pressure smoothing", compression_ >= 0, "fvSolution/MPM/smoothing"
     );
-    add("  wall friction", !nodes_.wallForce.empty(), "patch type frictional");
+    add
+    (
+        "  wall friction", !nodes_.ghostMomentum.empty(),
+        "patch type frictional"
+    );
     add
     (
         "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,

@@ -44,7 +44,7 @@ class soilKernelsFor
             c.points_.column(c.voidRatio_),
             1/c.model_->rhoS(),
             {},
-            soilCloud::compactionRate,
+            soilCloud::compactionRate*c.fallRate(),
             smooth ? c.points_.column(c.compression_) : nullptr,
             smooth ? c.points_.column(c.compressionMean_) : nullptr,
             {},
@@ -130,6 +130,7 @@ public:
 
         c.cost_.start("soil: nodes");
         this->nodalVelocities();
+        c.boundary_.keepVelocities(c.nodes_.velocity, c.nodes_.wallVelocity);
 
         // The solid fraction that the grid shows, into the scalar slot
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
@@ -198,13 +199,9 @@ public:
             begin = end;
         }
         this->exchangeForces();
-        if (!c.nodes_.wallForce.empty())
-        {
-            // Before the pressure of the water adds to the forces: friction
-            // is of the effective stress
-            c.grid_.exchange().sum(c.nodes_.wallForce);
-            c.boundary_.addWallForces(c.nodes_.force, c.nodes_.wallForce);
-        }
+        // Before the pressure of the water adds to the forces: friction is of
+        // the effective stress
+        c.boundary_.findWallForces(c.nodes_.force, c.nodes_.wallForce);
         this->filter();
         c.cost_.stop();
     }
