@@ -1032,8 +1032,8 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     soilCloud::bedState bed{};
     if (soil_ && soil_->bed(bed) && bed.stress > 0)
     {
-        // The grid shears its top row, a quarter of whose weight is half way
-        // down to the nodes below
+        // The top row holds what is thinner than this (rowStress of
+        // bedLoadModel)
         const scalar part = bed.movable/h;
         Info<< "soil: stress on the bed " << bed.stress
             << " Pa (mean), which can move " << bed.movable << " m of it, "
