@@ -664,7 +664,10 @@ def droppedSand(n=1, end=0.8):
 
 
 def heapOfSand(figures, case):
-    hard(figures, case)
+    # APIC: at the impact the affine velocities of the points take 2.5 % of the
+    # energy, which is not counted, and give a part of it back. With it the sum
+    # falls from step to step; with FLIP it never grows.
+    hard(figures, case, 3e-3)
     fallsFreely(figures, case, "soil", case.times[1])
     soil = CloudPoints(case, "soil", case.times[-1])
     # A heap: it came down and did not bounce
