@@ -150,9 +150,15 @@ def testItDigs(serial, figures):
     """A hole behind the apron, a dune behind it, and the bed far from the jet
     where it was; volumes, profile and points agree"""
     rows = readDat(serial.path, "scour", "scourProfile.dat")
-    time, depth, place, dune, dunePlace, eroded, deposited, _, level = rows.T
+    time, depth, place, dune, dunePlace, eroded, deposited, _, level = (
+        rows.T[:9])
+    stress, layer, cells = rows.T[9:]
     figures.equal("rows", len(rows), 16)
     figures.equal("scour at the start", depth[0], 0)
+    figures.holds("no stress before the first step", np.isnan(stress[0]))
+    figures.atLeast("mean stress on the bed at 0.3 s, Pa", stress[-1], 0.1)
+    figures.atMost("movable layer over its cells: error",
+                   abs(layer[-1]/(cells[-1]*H) - 1), 1e-9)
     figures.atLeast("depth of the hole at 0.3 s, m", depth[-1], 0.5*H)
     figures.holds("it is at the apron", 0.70 < place[-1] < 0.78, place[-1])
     figures.atLeast("height of the dune at 0.3 s, m", dune[-1], 0.5*H)

@@ -10,6 +10,7 @@ License
 #include "debug.H"
 #include "registerSwitch.H"
 #include <algorithm>
+#include <limits>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -227,6 +228,10 @@ Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
 Foam::mpm::soilCloud::bedState
 Foam::mpm::waterSoilInteraction::bedState() const
 {
+    // No step was made, or none with grains in water
+    const scalar unknown = std::numeric_limits<scalar>::quiet_NaN();
+    if (speed_.empty()) return soilCloud::bedState{unknown, unknown};
+
     soilCloud::bedState b{0, 0};
     if (surface_.valid())
     {
