@@ -8,6 +8,7 @@ License
 #include "soilCloud.H"
 #include "dictionaryEntries.H"
 #include "debug.H"
+#include "PstreamReduceOps.H"
 #include "registerSwitch.H"
 #include <algorithm>
 #include <limits>
@@ -230,7 +231,10 @@ Foam::mpm::waterSoilInteraction::bedState() const
 {
     // No step was made, or none with grains in water
     const scalar unknown = std::numeric_limits<scalar>::quiet_NaN();
-    if (speed_.empty()) return soilCloud::bedState{unknown, unknown};
+    if (!returnReduce(label(speed_.size()), sumOp<label>()))
+    {
+        return soilCloud::bedState{unknown, unknown};
+    }
 
     soilCloud::bedState b{0, 0};
     if (surface_.valid())
