@@ -12,7 +12,7 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 sys.path.insert(0, str(REPOSITORY/"etc"/"python"))
 
-from mpmfoam import metrics, reference, study, style  # noqa: E402
+from mpmfoam import coupled, metrics, reference, study, style  # noqa: E402
 
 G, RHO, RHO_S, D = 9.81, 1000, 2650, 0.85e-3
 BED, DEPTH, HEIGHT, COLUMNS = 0.025, 0.03, 0.06, 20
@@ -60,33 +60,13 @@ def current(h, aim, law):
 
 
 def measures(run):
-    """Over the second half: the stress is what drives the water above the bed
-    less what it gains; the transport that of all grains"""
-    case, h, g = run.case, run.about["h"], G*run.about["slope"]
-    length = COLUMNS*h
-    times = [t for t in case.times() if case.hasCloud(t, "soil")]
-    momentum, free, x = [], [], []
-    for t in times:
-        m, v, y = (case.cloudField(t, "water", f) for f in ["mass", "U", "x"])
-        momentum.append((m*v[:, 0]).sum())
-        free.append(m[y[:, 1] > BED].sum())
-        order = np.argsort(case.cloudField(t, "soil", "id"))
-        x.append(case.cloudField(t, "soil", "x")[order][:, 0])
-        mass = case.cloudField(t, "soil", "mass")[order]
-    t = np.array([float(i) for i in times])
-    late = t >= 0.5*t[-1]
-    gain = np.polyfit(t[late], np.array(momentum)[late], 1)[0]
-    stress = (g*np.mean(np.array(free)[late]) - gain)/(length*h)
-    steps = np.diff(np.array(x), axis=0)
-    steps = (steps + 0.5*length) % length - 0.5*length
-    volume = (mass/RHO_S*steps[late[1:]].sum(axis=0)).sum()
-    transport = volume/(length*h)/(t[-1] - t[late.argmax()])/SCALE
+    h = run.about["h"]
+    stress, transport, _, suspended = coupled.currentOverBed(
+        run.case, COLUMNS*h, BED, G*run.about["slope"], RHO_S)
     theta = stress/WEIGHT
     return {"law": run.about["law"], "h": h, "stress": stress, "theta": theta,
-            "transport": transport, "formula": formula(theta),
-            "suspended": (case.cloudField(times[-1], "soil", "regime")
-                          == 2).mean(),
-            "wallTime": run.log.wallTime}
+            "transport": transport/SCALE, "formula": formula(theta),
+            "suspended": suspended, "wallTime": run.log.wallTime}
 
 
 def formula(theta):
@@ -108,9 +88,16 @@ def evaluate(done, results):
                           key=lambda r: r["theta"])
             if not here:
                 continue
-            panel.loglog([r["theta"] for r in here],
-                         [max(r["transport"], 1e-6) for r in here],
-                         marker + line, label=f"{law}, h {h:g}")
+            moves = [r for r in here if r["transport"] > 0]
+            shown, = panel.loglog([r["theta"] for r in moves],
+                                  [r["transport"] for r in moves],
+                                  marker + line, label=f"{law}, h {h:g}")
+            # Beds that went nowhere, or backwards, have no place on this axis
+            for r in here:
+                if r["transport"] <= 0:
+                    panel.annotate(
+                        f"{r['transport']:.0e}", (r["theta"], 1e-6),
+                        color=shown.get_color(), ha="center", fontsize="small")
             ratios = [r["transport"]/r["formula"] for r in here
                       if 0.07 <= r["theta"] <= 0.3]
             if ratios:

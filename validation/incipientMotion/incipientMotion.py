@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 sys.path.insert(0, str(REPOSITORY/"etc"/"python"))
 
-from mpmfoam import metrics, reference, study, style  # noqa: E402
+from mpmfoam import coupled, metrics, reference, study, style  # noqa: E402
 
 G, RHO, RHO_S, D = 9.81, 1000, 2650, 0.85e-3
 BED, DEPTH, HEIGHT = 0.05, 0.05, 0.11
@@ -76,39 +76,15 @@ def current(h, aim):
 
 
 def measures(run):
-    case, h = run.case, run.about["h"]
-    length, g = LENGTH[h], G*run.about["slope"]
-    times = [t for t in case.times() if case.hasCloud(t, "soil")]
-    momentum, free, x = [], [], []
-    for t in times:
-        m, v, y = (case.cloudField(t, "water", f) for f in ["mass", "U", "x"])
-        momentum.append((m*v[:, 0]).sum())
-        free.append(m[y[:, 1] > BED].sum())
-        order = np.argsort(case.cloudField(t, "soil", "id"))
-        x.append(case.cloudField(t, "soil", "x")[order][:, 0])
-        mass = case.cloudField(t, "soil", "mass")[order]
-    t = np.array([float(i) for i in times])
-    late = t >= 0.5*t[-1]
-
-    # What drives the water above the bed less what it gains, per area
-    width = h
-    gain = np.polyfit(t[late], np.array(momentum)[late], 1)[0]
-    stress = (g*np.mean(np.array(free)[late]) - gain)/(length*width)
-
-    steps = np.diff(np.array(x), axis=0)
-    steps = (steps + 0.5*length) % length - 0.5*length
-    path = steps[late[1:]].sum(axis=0)
-    # Volume of grains times speed, per area and width
-    transport = (mass/RHO_S*path).sum()/(length*width)/(
-        t[-1] - t[late.argmax()])
-    whole = np.abs(steps.sum(axis=0))
-    regime = case.cloudField(times[-1], "soil", "regime")
+    h = run.about["h"]
+    stress, transport, way, suspended = coupled.currentOverBed(
+        run.case, LENGTH[h], BED, G*run.about["slope"], RHO_S)
     return {"h": h, "aim": run.about["aim"], "stress": stress,
             "shieldsParameter": stress/weightStress(),
             "transport": transport/SCALE,
-            "movedFurtherThanD": (whole > D).mean(),
-            "longestPathOverD": whole.max()/D,
-            "suspended": (regime == 2).mean(),
+            "movedFurtherThanD": (np.abs(way) > D).mean(),
+            "longestPathOverD": np.abs(way).max()/D,
+            "suspended": suspended,
             "wallTime": run.log.wallTime}
 
 

@@ -351,6 +351,37 @@ def collapseCourse(case, probe=0.02):
     return np.array(rows)
 
 
+def currentOverBed(case, length, bed, drive, rhoS):
+    """A current over an endless bed that ends at the height bed, a cell wide,
+    driven by the acceleration drive, over the second half of the run: stress
+    on the bed [Pa], what drives the water above it less what it gains;
+    transport of all grains per width [m2/s]; way of each grain in the whole
+    run [m]; and the part of the grains that is suspended at its end"""
+    times = [t for t in case.times() if case.hasCloud(t, "soil")]
+    momentum, free, x = [], [], []
+    for t in times:
+        m, v, y = (case.cloudField(t, "water", f) for f in ["mass", "U", "x"])
+        momentum.append((m*v[:, 0]).sum())
+        free.append(m[y[:, 1] > bed].sum())
+        order = np.argsort(case.cloudField(t, "soil", "id"))
+        x.append(case.cloudField(t, "soil", "x")[order][:, 0])
+    mass = case.cloudField(times[-1], "soil", "mass")[order]
+    t = np.array([float(i) for i in times])
+    late = t >= 0.5*t[-1]
+    area = length*spacing(case)
+
+    gain = np.polyfit(t[late], np.array(momentum)[late], 1)[0]
+    stress = (drive*np.mean(np.array(free)[late]) - gain)/area
+
+    steps = np.diff(np.array(x), axis=0)
+    steps = (steps + 0.5*length) % length - 0.5*length
+    # Volume of grains times speed, per area
+    volume = (mass/rhoS*steps[late[1:]].sum(axis=0)).sum()
+    transport = volume/area/(t[-1] - t[late.argmax()])
+    regime = case.cloudField(times[-1], "soil", "regime")
+    return stress, transport, steps.sum(axis=0), (regime == 2).mean()
+
+
 # What Rondon, Pouliquen and Aussillous (2011) measured: names of the files and
 # times of the profiles
 RONDON = {"dense": ("sedfoam_RondonDenseL6H4.2", (3, 6, 9, 12, 18, 60)),

@@ -23,25 +23,7 @@ Foam::mpm::MeyerPeterMueller::MeyerPeterMueller
     const bed& b
 )
 :
-    bedLoadModel(coeffs, b, 0.047)
+    bedLoadModel(coeffs, b, 0.047, 8)
 {}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::mpm::MeyerPeterMueller::transport
-(
-    const label n,
-    const scalar* shields,
-    const scalar* critical,
-    scalar* q
-) const
-{
-    for (label i = 0; i < n; ++i)
-    {
-        const scalar excess = max(shields[i] - critical[i], scalar(0));
-        q[i] = 8*excess*std::sqrt(excess);
-    }
-}
 
 // ************************************************************************* //

@@ -23,25 +23,7 @@ Foam::mpm::WongParker::WongParker
     const bed& b
 )
 :
-    bedLoadModel(coeffs, b, 0.0495)
+    bedLoadModel(coeffs, b, 0.0495, 3.97)
 {}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::mpm::WongParker::transport
-(
-    const label n,
-    const scalar* shields,
-    const scalar* critical,
-    scalar* q
-) const
-{
-    for (label i = 0; i < n; ++i)
-    {
-        const scalar excess = max(shields[i] - critical[i], scalar(0));
-        q[i] = 3.97*excess*std::sqrt(excess);
-    }
-}
 
 // ************************************************************************* //

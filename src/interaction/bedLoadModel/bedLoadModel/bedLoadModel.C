@@ -23,7 +23,8 @@ Foam::mpm::bedLoadModel::bedLoadModel
 (
     const dictionary& coeffs,
     const bed& b,
-    const scalar criticalShields
+    const scalar criticalShields,
+    const scalar coefficient
 )
 :
     bed_(b),
@@ -42,7 +43,8 @@ Foam::mpm::bedLoadModel::bedLoadModel
             20*b.d/std::sqrt(criticalShields_*(b.rhoS/b.rho - 1)*b.g*b.d),
             0, GREAT
         )
-    )
+    ),
+    coefficient_(coefficient)
 {}
 
 
@@ -100,6 +102,22 @@ Foam::scalar Foam::mpm::bedLoadModel::slopeFactor
 Foam::scalar Foam::mpm::bedLoadModel::unresolved(const scalar stress) const
 {
     return min(max(2 - stress/bed_.rowStress(), scalar(0)), scalar(1));
+}
+
+
+void Foam::mpm::bedLoadModel::transport
+(
+    const label n,
+    const scalar* shields,
+    const scalar* critical,
+    scalar* q
+) const
+{
+    for (label i = 0; i < n; ++i)
+    {
+        const scalar excess = max(shields[i] - critical[i], scalar(0));
+        q[i] = coefficient_*excess*std::sqrt(excess);
+    }
 }
 
 

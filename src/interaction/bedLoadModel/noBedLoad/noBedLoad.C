@@ -5,7 +5,6 @@ License
 
 #include "noBedLoad.H"
 #include "addToRunTimeSelectionTable.H"
-#include <algorithm>
 
 namespace Foam
 {
@@ -14,19 +13,6 @@ namespace mpm
     defineTypeNameAndDebug(noBedLoad, 0);
     addToRunTimeSelectionTable(bedLoadModel, noBedLoad, dictionary);
 }
-}
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::mpm::noBedLoad::transport
-(
-    const label n,
-    const scalar*,
-    const scalar*,
-    scalar* q
-) const
-{
-    std::fill(q, q + n, 0);
 }
 
 // ************************************************************************* //
