@@ -14,18 +14,35 @@ Description
         mpmUnitTests "stencil: scatter conserves"
     \endverbatim
 
+    Those of several ranks, which a run without name leaves out:
+
+    \verbatim
+        mpirun -np 4 mpmUnitTests -parallel "[ranks]"
+    \endverbatim
+
 \*---------------------------------------------------------------------------*/
 
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 #include "error.H"
+#include "UPstream.H"
+#include <cstring>
 
 int main(int argc, char* argv[])
 {
     Foam::FatalError.throwExceptions();
     Foam::FatalIOError.throwExceptions();
 
-    return Catch::Session().run(argc, argv);
+    const bool parallel = argc > 1 && !std::strcmp(argv[1], "-parallel");
+    if (parallel)
+    {
+        Foam::UPstream::init(argc, argv, false);
+        --argc;
+        for (int i = 1; i < argc; ++i) argv[i] = argv[i + 1];
+    }
+    const int failed = Catch::Session().run(argc, argv);
+    if (parallel) Foam::UPstream::exit(failed);
+    return failed;
 }
 
 // ************************************************************************* //

@@ -35,7 +35,17 @@ def testThereAreCases(figures):
 def testUnit(name, figures):
     # Catch2 takes a name as a pattern: commas separate, brackets are tags
     pattern = name.replace("\\", "\\\\").replace(",", "\\,").replace("[", "\\[")
-    result = run(pattern)
+    judge(run(pattern), figures)
+
+
+def testOnFourRanks(figures):
+    """The cases of several ranks"""
+    judge(subprocess.run(
+        ["mpirun", "-np", "4", EXECUTABLE, "-parallel", "[ranks]"],
+        capture_output=True, text=True, timeout=300), figures)
+
+
+def judge(result, figures):
     log = [line for line in result.stdout.splitlines()
            if not line.startswith("figure\t")]
 

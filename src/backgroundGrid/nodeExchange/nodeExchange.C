@@ -82,6 +82,61 @@ Foam::mpm::nodeExchange::nodeExchange
     }
     ranks_.transfer(ranks);
     nodes_.transfer(nodes);
+    orderParts();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::nodeExchange::orderParts()
+{
+    // Ranks ascend, this one is among them
+    std::map<label, std::vector<part>> partsOf;
+    bool ownPassed = false;
+    auto addOwn = [&]()
+    {
+        if (ownPassed) return;
+        ownPassed = true;
+        for (const labelList& nodes : nodes_)
+        {
+            for (const label node : nodes)
+            {
+                std::vector<part>& parts = partsOf[node];
+                if (parts.empty() || parts.back().rank >= 0)
+                {
+                    parts.push_back(part{-1, -1});
+                }
+            }
+        }
+    };
+    forAll(ranks_, r)
+    {
+        if (ranks_[r] > Pstream::myProcNo()) addOwn();
+        forAll(nodes_[r], i) partsOf[nodes_[r][i]].push_back(part{r, i});
+    }
+    addOwn();
+
+    List<DynamicList<label>> pairs(ranks_.size());
+    DynamicList<label> several, first;
+    for (const auto& entry : partsOf)
+    {
+        const std::vector<part>& parts = entry.second;
+        if (parts.size() == 2)
+        {
+            const part& other = parts[parts[0].rank < 0];
+            pairs[other.rank].append(other.place);
+            continue;
+        }
+        several.append(entry.first);
+        first.append(label(parts_.size()));
+        parts_.insert(parts_.end(), parts.begin(), parts.end());
+    }
+    first.append(label(parts_.size()));
+
+    pairs_.setSize(pairs.size());
+    forAll(pairs, r) pairs_[r].transfer(pairs[r]);
+    several_.transfer(several);
+    firstPart_.transfer(first);
 }
 
 

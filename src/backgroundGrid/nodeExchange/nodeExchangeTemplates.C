@@ -55,10 +55,19 @@ void Foam::mpm::nodeExchange::sum(nodeField<Record>& field) const
         forAll(ranks_, r)
         {
             const labelList& nodes = nodes_[r];
-            forAll(nodes, i)
+            for (const label i : pairs_[r]) field[nodes[i]] += receive[r][i];
+        }
+        forAll(several_, k)
+        {
+            Record& value = field[several_[k]];
+            auto valueOf = [&](const part& p) -> const Record&
             {
-                field[nodes[i]] += receive[r][i];
-            }
+                return p.rank < 0 ? value : receive[p.rank][p.place];
+            };
+            label p = firstPart_[k];
+            Record sum = valueOf(parts_[p]);
+            while (++p < firstPart_[k + 1]) sum += valueOf(parts_[p]);
+            value = sum;
         }
     }
 
