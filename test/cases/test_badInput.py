@@ -507,6 +507,17 @@ CASES = [
     Bad("sortInterval", {
         "file": SOLUTION, "keyword": "sortInterval", "value": r"value 0\b",
         "allowed": "1 <= sortInterval"}, setup=mpm(sortInterval=0)),
+    Bad("sortIntervalBroken", {
+        "file": SOLUTION, "keyword": "sortInterval", "value": r"value 2\.5",
+        "allowed": "whole number, 1 <= sortInterval"},
+        setup=mpm(sortInterval=2.5)),
+    Bad("logIntervalBroken", {
+        "file": SOLUTION, "keyword": "logInterval", "value": r"value 2\.5",
+        "allowed": "whole number, 1 <= logInterval"},
+        setup=mpm(logInterval=2.5)),
+    Bad("seedBroken", {
+        "file": REGIONS, "keyword": "seed", "value": r"value 2\.5",
+        "allowed": "whole number"}, setup=placement(seed=2.5)),
     Bad("smoothingNoSwitch", {
         "file": SOLUTION, "keyword": "smoothing", "value": "perhaps",
         "allowed": r"(?i)" + words("yes", "no")},
@@ -517,7 +528,8 @@ CASES = [
         setup=placement(pointsPerDirection=0)),
     Bad("pointsPerDirectionBroken", {
         "file": REGIONS, "keyword": "pointsPerDirection",
-        "value": r"2\.5"}, setup=placement(pointsPerDirection=2.5)),
+        "value": r"value 2\.5", "allowed": "whole number"},
+        setup=placement(pointsPerDirection=2.5)),
     Bad("jitter", {
         "file": REGIONS, "keyword": "jitter", "value": r"0\.7",
         "allowed": r"jitter <= 0\.5"},

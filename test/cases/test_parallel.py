@@ -238,6 +238,36 @@ def testThereAndBack(tmp_path, figures):
     agree(figures, case, whole)
 
 
+def testSlidesIntoAnotherRank(tmp_path, figures):
+    """A point beside a step that meets the step and comes to another rank in
+    one step goes on along the wall, as it does in serial"""
+    h, dt = 0.1, 0.01
+    speed = (4.5, 1.5)
+    setup = Setup(
+        cells=(8, 6), h=h, solid=[((4, 0), (8, 4))], points=16, g=(0, 0, 0),
+        energy=False, fluid={"soundSpeed": 1},
+        regions={"point": box((3.95*h, 2.95*h), (4*h, 3*h),
+                              velocity=(*speed, 0))},
+        control={"deltaT": dt, "adjustTimeStep": False}).steps(1)
+    whole = setup.write(tmp_path/"serial").prepare()
+    figures.equal("points", len(whole.points("0").id), 1)
+    case = whole.clone(tmp_path/"parallel")
+    whole.solve()
+    rank = (case.case.cellCentres("0")[:, 1] > 3*h).astype(int)
+    case.decompose(2, cellRank=rank)
+    case.solve(ranks=2)
+
+    serial, parallel = whole.points().x[0], case.points().x[0]
+    figures.atMost("gap to the wall over h, serial",
+                   abs(serial[0]/h - 4), 1e-8)
+    figures.atLeast("height over h, serial", serial[1]/h, 3.02)
+    figures.atMost("parallel and serial: distance over h",
+                   np.abs(parallel - serial)[:2].max()/h, 1e-12)
+    for c, name in [(whole, "serial"), (case, "parallel")]:
+        figures.equal(f"put back from walls, {name}",
+                      int(c.state()["wallContacts"]), 1)
+
+
 @pytest.mark.parametrize("ranks", [3, 4])
 def testWrongNumberOfRanks(tmp_path, figures, ranks):
     """Processor directories of another decomposition are refused"""

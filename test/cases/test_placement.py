@@ -58,6 +58,28 @@ def testTouchingBoxes(tmp_path, figures):
                    np.abs(share - expected).max(), 1e-9)
 
 
+def testOverlapWithoutSoil(tmp_path, figures):
+    """Two regions of soil may overlap where no point of theirs is; water there
+    has the pores of one of them"""
+    e, h = 0.8, 0.01
+    setup = Setup(
+        cells=(4, 4), h=h, points=4, energy=False,
+        regions={"all": hydrostatic((0, 0), (4*h, 4*h))},
+        soilRegions={"low": box((0, 0), (4*h, 2*h), voidRatio=e),
+                     "high": box((0, 1.8*h), (4*h, 4*h), voidRatio=e)})
+    case = setup.write(tmp_path/"case")
+    # Two rows of soil, four of water
+    path = case.path/"system"/"setMaterialPointsDict"
+    head, tail = path.read_text().rsplit("pointsPerDirection 4", 1)
+    path.write_text(head + "pointsPerDirection 2" + tail)
+    _, n = placed(case)
+    figures.equal("points of soil", (n["low"], n["high"]), (32, 32))
+    points = case.points("0")
+    share = points.mass*points.J/1000/(h*case.setup.spacing[2]*h/16)
+    figures.atMost("pores of the water points: error",
+                   np.abs(share - e/(1 + e)).max(), 1e-9)
+
+
 @pytest.mark.parametrize("shape", ["box", "polygon", "cylinder"])
 def testSameForEachFormat(tmp_path, figures, shape):
     """A region that ends on a column of points: the last bit of the mesh may

@@ -47,6 +47,37 @@ std::string errorIn(const std::function<void()>& op)
 } // End anonymous namespace
 
 
+TEST_CASE("dictionaryEntries: whole numbers")
+{
+    const dictionary dict
+    (
+        dictOf("n 3; real 3.0; broken 2.5; text many; count 3000000000;")
+    );
+    equal("n", readInteger(dict, "n", 1, 5), 3);
+    equal("3.0", readInteger(dict, "real", 1), 3);
+    equal("default", readIntegerOrDefault(dict, "none", 7, 1, 5), 7);
+    equal
+    (
+        "more than a label of 32 bits holds",
+        std::to_string(readCount(dict, "count")), "3000000000"
+    );
+    equal("not there", label(readCountOrZero(dict, "none")), 0);
+
+    const std::vector<std::string> broken
+        ({"broken", "2.5", "whole number", "constant/properties"});
+    contains(errorIn([&] { readInteger(dict, "broken", 1, 5); }), broken);
+    contains(errorIn([&] { readIntegerOrDefault(dict, "broken", 1, 1); }), broken);
+    contains(errorIn([&] { readCount(dict, "broken"); }), broken);
+    contains
+    (
+        errorIn([&] { readInteger(dict, "n", 4, 5); }),
+        {"keyword n", "3", "4 <= n <= 5"}
+    );
+    contains(errorIn([&] { readInteger(dict, "text", 1); }), {"text", "many"});
+    contains(errorIn([&] { readInteger(dict, "count", 1); }), {"count"});
+}
+
+
 TEST_CASE("dictionaryEntries: values with and without dimensions")
 {
     const dictionary dict

@@ -6,6 +6,7 @@ License
 #include "figures.H"
 #include "testMesh.H"
 #include "massAccount.H"
+#include "StringStream.H"
 #include "waitingZone.H"
 #include "inflowZone.H"
 #include "nodeBoundary.H"
@@ -80,6 +81,25 @@ TEST_CASE("exactSum: text and digits")
         );
         holds("over one rank", sum.global() == sum);
     }
+}
+
+
+TEST_CASE("massAccount: more points than a label of 32 bits holds")
+{
+    massAccount a;
+    a.n = 3000000000;
+    a.mass += 0.1;
+    dictionary written;
+    a.write(written, "entered");
+
+    // As text, as a restart reads it
+    OStringStream os;
+    os  << written;
+    massAccount b;
+    b.read(dictionary(IStringStream(os.str())()), "entered");
+    equal("points", std::to_string(b.n), "3000000000");
+    b.add(0.1);
+    equal("and one more", std::to_string(b.global().n), "3000000001");
 }
 
 

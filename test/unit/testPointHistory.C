@@ -226,6 +226,37 @@ TEST_CASE("pointHistory: writes, removes, appends")
 }
 
 
+TEST_CASE("pointHistory: a group that is no time of ours")
+{
+    const place dir;
+    {
+        pointHistory history(dir.file(), "water");
+        append(history, 0);
+    }
+    const hid_t file = H5Fopen(dir.file().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    REQUIRE
+    (
+        H5Lcopy
+        (
+            file, "000000", H5L_SAME_LOC, "copy", H5P_DEFAULT, H5P_DEFAULT
+        ) >= 0
+    );
+    H5Fclose(file);
+    contains
+    (
+        errorOf
+        (
+            [&]
+            {
+                pointHistory history(dir.file(), "water");
+                append(history, 1);
+            }
+        ),
+        {"copy", "six digits", dir.file()}
+    );
+}
+
+
 TEST_CASE("pointHistory: killed at any call that changes a file")
 {
     const place dir;

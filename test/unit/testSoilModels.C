@@ -9,6 +9,7 @@ Description
 
 #include "figures.H"
 #include "soilElement.H"
+#include "rigidSkeleton.H"
 #include "unitConversion.H"
 #include "vector.H"
 #include <random>
@@ -21,7 +22,42 @@ namespace
 
 const std::string grains("rhoS 2650; d 0.85e-3; e0 0.7;");
 
+//- A user's model, with more fields than points have places for
+class manyFields
+:
+    public rigidSkeleton
+{
+public:
+
+    TypeName("manyFields");
+
+    manyFields(const dictionary& coeffs, const bool strict)
+    :
+        rigidSkeleton(coeffs, strict)
+    {}
+
+    wordList stateFields() const override
+    {
+        wordList names(9);
+        forAll(names, i) names[i] = "field" + Foam::name(i);
+        return names;
+    }
+};
+
+defineTypeName(manyFields);
+soilModel::adddictionaryConstructorToTable<manyFields> addManyFields;
+
 } // End anonymous namespace
+
+
+TEST_CASE("soilModel: more fields than there is room for")
+{
+    contains
+    (
+        errorOf([]() { soilModelOf("manyFields", grains); }),
+        {"manyFields", "9 fields", "field8", "Allowed: up to 8"}
+    );
+}
 
 
 TEST_CASE("soilModel: unknown models and values are refused")

@@ -3,6 +3,14 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
+// What g++ before version 12 does not know may be in no header of ours
+#if defined(__GNUC__) && !defined(__clang__)
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+#pragma GCC poison __builtin_shufflevector
+#endif
+
 #include "figures.H"
 #include "stencil.H"
 #include "label.H"

@@ -154,6 +154,13 @@ static bool holds
 }
 
 
+//- Points of a cloud per cell and direction
+static label pointsPerDirection(const dictionary& dict)
+{
+    return mpm::readInteger(dict, "pointsPerDirection", 1, 16);
+}
+
+
 //- Bytes of a point while it is placed and written, beside its columns
 static const scalar bytesOfPlacing = 250;
 
@@ -166,10 +173,7 @@ static void checkMemory
     const dictionary& dict
 )
 {
-    const scalar n = mpm::readBounded
-    (
-        dict, "pointsPerDirection", dimless, 1, 16, true, true
-    );
+    const scalar n = pointsPerDirection(dict);
 
     // Cells whose centres it holds
     scalar nCells = 0;
@@ -205,7 +209,7 @@ static void checkDensityOfPoints
     const dictionary& dict
 )
 {
-    const label n = dict.get<label>("pointsPerDirection");
+    const label n = pointsPerDirection(dict);
     if (cloud.name() == "water" && n < 2)
     {
         IOWarningInFunction(dict)
@@ -318,15 +322,12 @@ static regionPoints fill
     const mpm::backgroundGrid& grid,
     const mpm::pointRegion& region,
     const dictionary& dict,
-    labelHashSet& taken
+    HashSet<int64_t, Hash<int64_t>>& taken
 )
 {
     const mpm::lattice& cells = grid.cells();
     const label nDim = grid.nDim();
-    const label n = label
-    (
-        mpm::readBounded(dict, "pointsPerDirection", dimless, 1, 16, true, true)
-    );
+    const label n = pointsPerDirection(dict);
     const bool jittered =
         mpm::readChoiceOrDefault
         (
@@ -336,7 +337,8 @@ static regionPoints fill
     (
         dict, "jitter", dimless, 0.25, 0, 0.5, true, true
     );
-    const uint64_t seed = dict.lookupOrDefault<label>("seed", 1);
+    const uint64_t seed =
+        mpm::readIntegerOrDefault(dict, "seed", 1, labelMin);
 
     const label perCell = nDim == 2 ? n*n : n*n*n;
     const boundBox bounds(region.bounds());
@@ -373,7 +375,7 @@ static regionPoints fill
             }
             if (!holds(cells, region, x, celli)) continue;
 
-            if (!taken.insert(celli*perCell + k))
+            if (!taken.insert(id))
             {
                 FatalIOErrorInFunction(region.dict())
                     << "region " << region.dict().dictName()
@@ -408,7 +410,7 @@ struct placedRegion
 //- Volume of a point of a cloud with the given dictionary
 static scalar pointVolume(const mpm::lattice& cells, const dictionary& dict)
 {
-    const label n = dict.get<label>("pointsPerDirection");
+    const label n = pointsPerDirection(dict);
     return cells.cellVolume()/(cells.nDim() == 2 ? n*n : n*n*n);
 }
 
@@ -434,7 +436,8 @@ static std::vector<placedRegion> place
     );
 
     std::vector<placedRegion> regions;
-    labelHashSet taken;
+    // Ids of the places that points have
+    HashSet<int64_t, Hash<int64_t>> taken;
 
     const dictionary& all = mpm::subDictOf(dict, "regions");
     for (const word& name : all.toc())
@@ -459,7 +462,8 @@ static std::vector<placedRegion> place
         checkMemory(cloud, *region, dict);
         const regionPoints filled(fill(cloud.grid(), *region, dict, taken));
 
-        const label n = returnReduce(filled.position.size(), sumOp<label>());
+        const int64_t n =
+            returnReduce(int64_t(filled.position.size()), sumOp<int64_t>());
         if (!n)
         {
             FatalIOErrorInFunction(entries)
@@ -486,7 +490,7 @@ static std::vector<placedRegion> place
         for (label d = 0; d < cells.nDim(); ++d)
         {
             half += 0.5*mag(up[cells.axis(d)])*cells.spacing(d)
-               /dict.get<label>("pointsPerDirection");
+               /pointsPerDirection(dict);
         }
         const scalar level =
             entries.lookupOrDefault<scalar>("level", top + half);
@@ -781,8 +785,10 @@ static void setWaterState
             {
                 if (holds(water.grid().cells(), *s.region, x, celli))
                 {
+                    // Regions may overlap where no point of soil is
                     const scalar e = voidRatioOf(*soil, s.dict);
                     V[i] *= e/(1 + e);
+                    break;
                 }
             }
         }
@@ -1065,7 +1071,7 @@ static void checkPoreWater
     const mpm::backgroundGrid& grid = soil.grid();
     const mpm::lattice& cells = grid.cells();
     const vector step(cells.minSpacing()*up);
-    label nDry = 0, nUnder = 0;
+    int64_t nDry = 0, nUnder = 0;
     for (label p = r.first; p < r.last; ++p)
     {
         const point x(soil.position(p));
@@ -1080,9 +1086,10 @@ static void checkPoreWater
         }
         nUnder += under;
     }
-    reduce(nDry, sumOp<label>());
-    reduce(nUnder, sumOp<label>());
-    const label n = returnReduce(r.last - r.first, sumOp<label>());
+    reduce(nDry, sumOp<int64_t>());
+    reduce(nUnder, sumOp<int64_t>());
+    const int64_t n =
+        returnReduce(int64_t(r.last - r.first), sumOp<int64_t>());
 
     const bool buoyant =
         r.dict.lookupOrDefault<word>("stress", "none") == "geostatic";
@@ -1114,7 +1121,7 @@ static void setSoilState
 {
     const mpm::lattice& cells = soil.grid().cells();
     const scalar volume = pointVolume(cells, cloudDict);
-    const label nPoints = cloudDict.get<label>("pointsPerDirection");
+    const label nPoints = pointsPerDirection(cloudDict);
 
     // Of the whole case: what lies above may be on another rank
     boundBox domain(soil.grid().mesh().points(), true);
@@ -1312,11 +1319,8 @@ static void writeDecomposition
             false
         )
     );
-    const label nRanks = label
-    (
-        mpm::readBounded
-            (dict, "numberOfSubdomains", dimless, 1, 1e6, true, true)
-    );
+    const label nRanks =
+        mpm::readInteger(dict, "numberOfSubdomains", 1, 1000000);
 
     // Columns of the longest direction
     const mpm::lattice& cells = points.grid().cells();

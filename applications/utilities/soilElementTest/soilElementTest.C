@@ -186,20 +186,10 @@ static void run
     (
         dict, "strainIncrement", dimless, 1e-4, 0, strain, false, true
     );
-    const label cycles = label
-    (
-        mpm::readBoundedOrDefault
-        (
-            dict, "cycles", dimless, 0, 0, 1e6, true, true
-        )
-    );
-    const label interval = label
-    (
-        mpm::readBoundedOrDefault
-        (
-            dict, "writeInterval", dimless, 10, 1, GREAT, true
-        )
-    );
+    const label cycles =
+        mpm::readIntegerOrDefault(dict, "cycles", 0, 0, 1000000);
+    const label interval =
+        mpm::readIntegerOrDefault(dict, "writeInterval", 10, 1);
 
     // Also of all legs together
     const scalar mostSteps = scalar(std::numeric_limits<int>::max());

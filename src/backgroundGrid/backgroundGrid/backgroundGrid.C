@@ -26,6 +26,8 @@ void Foam::mpm::backgroundGrid::selectShapeFunction(const dictionary& mpmDict)
         nodeCentred_ = Shape::nodeCentred;
         reachWidth_ = Shape::reachWidth;
         reachStart_ = Shape::reachStart;
+        secondMoment_ =
+            Shape::gradientScale > 0 ? 1/Shape::gradientScale : 0;
         cellIntegral_.setSize(reachWidth_);
         for (label t = 0; t < reachWidth_; ++t)
         {

@@ -9,6 +9,7 @@ License
 #include "ITstream.H"
 #include "stringOps.H"
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -218,6 +219,71 @@ Foam::scalar Foam::mpm::readPositive
 )
 {
     return readBounded(dict, keyword, dims, 0, GREAT);
+}
+
+
+Foam::label Foam::mpm::readInteger
+(
+    const dictionary& dict,
+    const word& keyword,
+    const label lower,
+    const label upper
+)
+{
+    const scalar value =
+        readBounded(dict, keyword, dimless, lower, upper, true, true);
+    if (value != std::floor(value))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value " << value << '.'
+            << nl << "    Allowed: a whole number, " << lower << " <= "
+            << keyword;
+        if (upper < labelMax) FatalIOError<< " <= " << upper;
+        FatalIOError<< exit(FatalIOError);
+    }
+    return label(value);
+}
+
+
+Foam::label Foam::mpm::readIntegerOrDefault
+(
+    const dictionary& dict,
+    const word& keyword,
+    const label defaultValue,
+    const label lower,
+    const label upper
+)
+{
+    return
+        dict.found(keyword)
+      ? readInteger(dict, keyword, lower, upper)
+      : defaultValue;
+}
+
+
+int64_t Foam::mpm::readCount(const dictionary& dict, const word& keyword)
+{
+    // Above the largest label a number is read as a scalar, exact to 2^53
+    const scalar most = scalar(int64_t(1) << 53);
+    const scalar value =
+        readBounded(dict, keyword, dimless, 0, most, true, true);
+    if (value != std::floor(value))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword " << keyword << " has the value " << value << '.'
+            << nl << "    Allowed: a whole number >= 0" << exit(FatalIOError);
+    }
+    return int64_t(value);
+}
+
+
+int64_t Foam::mpm::readCountOrZero
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    return dict.found(keyword) ? readCount(dict, keyword) : 0;
 }
 
 

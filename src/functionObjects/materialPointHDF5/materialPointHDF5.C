@@ -7,6 +7,7 @@ License
 #include "dictionaryEntries.H"
 #include "listed.H"
 #include "ListOps.H"
+#include "stringListOps.H"
 #include "OSspecific.H"
 #include "clockTime.H"
 #include "IPstream.H"
@@ -204,13 +205,8 @@ Foam::wordList Foam::mpm::materialPointHDF5::keywords() const
 void Foam::mpm::materialPointHDF5::readEntries(const dictionary& dict)
 {
     fields_ = dict.lookupOrDefault<wordRes>("fields", wordRes());
-    compressionLevel_ = label
-    (
-        readBoundedOrDefault
-        (
-            dict, "compressionLevel", dimless, 1, 0, 9, true, true
-        )
-    );
+    compressionLevel_ =
+        readIntegerOrDefault(dict, "compressionLevel", 1, 0, 9);
     singlePrecision_ =
         readChoiceOrDefault(dict, "precision", "double", {"double", "single"})
      == "single";

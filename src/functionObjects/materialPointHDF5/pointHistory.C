@@ -247,6 +247,14 @@ void Foam::mpm::pointHistory::readTimes()
         int64_t step = 0, nPoints = 0;
         timeInfo t;
         t.group = name;
+
+        // begin() counts on from it
+        check
+        (
+            name.size() == 6
+         && name.find_first_not_of("0123456789") == std::string::npos,
+            "read group " + name + " (allowed: six digits) of"
+        );
         std::vector<std::string> fields;
         check
         (

@@ -153,7 +153,7 @@ void Foam::mpm::caseRecord::addMesh(const lattice& cells)
     mesh.set("origin", origin);
     mesh.set("spacing", spacing);
     mesh.set("latticeCells", number);
-    mesh.set("cells", returnReduce(n, sumOp<label>()));
+    mesh.set("cells", returnReduce(int64_t(n), sumOp<int64_t>()));
     mesh.set("places", places);
     basis_.set("mesh", mesh);
 }

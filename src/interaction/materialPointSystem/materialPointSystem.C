@@ -33,10 +33,8 @@ void Foam::mpm::materialPointSystem::readSettings()
             << nl << "    Allowed: no, or volumeCorrection yes"
             << exit(FatalIOError);
     }
-    settings_.sortInterval = label
-    (
-        readBoundedOrDefault(control_, "sortInterval", dimless, 10, 1, 1e6, true)
-    );
+    settings_.sortInterval =
+        readIntegerOrDefault(control_, "sortInterval", 10, 1, 999999);
 
     settings_.maxSoilSoundSpeed =
         control_.found("maxSoilSoundSpeed")
@@ -102,10 +100,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         settings_.strictKeywords
     );
 
-    logInterval_ = label
-    (
-        readBoundedOrDefault(control_, "logInterval", dimless, 10, 1, 1e9, true)
-    );
+    logInterval_ =
+        readIntegerOrDefault(control_, "logInterval", 10, 1, 999999999);
 
     const dictionary& coDict =
         control_.found("maxCo") ? control_ : time_.controlDict();
@@ -348,6 +344,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
     );
     if (settings_.coupled)
     {
+        soil_->setLiquid(*water_);
         interaction_.reset
         (
             new waterSoilInteraction
@@ -670,7 +667,7 @@ void Foam::mpm::materialPointSystem::reportEffects() const
     }
 
     Info<< nl << "Background grid" << nl
-        << "    " << returnReduce(mesh_.nCells(), sumOp<label>())
+        << "    " << returnReduce(int64_t(mesh_.nCells()), sumOp<int64_t>())
         << " cells of " << spacing.str().c_str() << " m, " << cells.nDim()
         << "D, " << grid_.shapeFunction() << nl << nl
         << "Effects" << nl;
@@ -716,7 +713,7 @@ void Foam::mpm::materialPointSystem::reportEffects() const
     Info<< nl << "Memory" << nl;
     for (const materialPointCloud& cloud : clouds_)
     {
-        const scalar n = max(label(1), cloud.globalSize());
+        const scalar n = max(int64_t(1), cloud.globalSize());
         scalar points = cloud.pointMemory(), nodes = cloud.nodeMemory();
         reduce(points, sumOp<scalar>());
         reduce(nodes, sumOp<scalar>());
@@ -998,10 +995,10 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     {
         scalar speed = cloud.maxSpeed();
         reduce(speed, maxOp<scalar>());
-        const label contacts =
-            returnReduce(cloud.counts().wallContacts, sumOp<label>());
-        const label left =
-            returnReduce(cloud.counts().left.n, sumOp<label>());
+        const int64_t contacts =
+            returnReduce(cloud.counts().wallContacts, sumOp<int64_t>());
+        const int64_t left =
+            returnReduce(cloud.counts().left.n, sumOp<int64_t>());
 
         Info<< cloud.name() << ": points " << cloud.globalSize()
             << ", max speed " << speed << " m/s";
@@ -1021,8 +1018,8 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
 
     if (interaction_.valid())
     {
-        const label packed =
-            returnReduce(interaction_->nPacked(), sumOp<label>());
+        const int64_t packed =
+            returnReduce(int64_t(interaction_->nPacked()), sumOp<int64_t>());
         if (packed)
         {
             Info<< "--> soil: " << packed << " nodes with less than 10 %"
@@ -1073,10 +1070,10 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         const scalar fastest = returnReduce(soil_->maxSpeed(), maxOp<scalar>());
         if (fastest > most)
         {
-            const label nFaster =
-                returnReduce(soil_->nFaster(most), sumOp<label>());
+            const scalar nFaster =
+                returnReduce(scalar(soil_->nFaster(most)), sumOp<scalar>());
             const scalar share =
-                scalar(nFaster)/max(label(1), soil_->globalSize());
+                nFaster/max(int64_t(1), soil_->globalSize());
 
             // As for water: single grains in the air do not matter
             if (share > 0.01)

@@ -266,8 +266,8 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
         cloud.readState(dict);
         cloud.readPoints();
 
-        const label n = cloud.globalSize();
-        const label expected = dict.get<label>("nPoints");
+        const int64_t n = cloud.globalSize();
+        const int64_t expected = readCount(dict, "nPoints");
         if (n != expected)
         {
             FatalIOErrorInFunction(dict)
@@ -285,16 +285,6 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
         // The speed of sound and what follows from it are known now
         describeCase();
         record_.reportSettings(state, start);
-    }
-
-    if (interaction_.valid())
-    {
-        soil_->setLiquid
-        (
-            water_->nodes().momentum,
-            water_->fluid().mu(),
-            water_->fluid().soundSpeed()
-        );
     }
 
     // The name of the directory is rounded

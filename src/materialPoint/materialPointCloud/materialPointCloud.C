@@ -197,7 +197,10 @@ bool Foam::mpm::materialPointCloud::findCell
 }
 
 
-void Foam::mpm::materialPointCloud::returnFromWall(const label point)
+Foam::mpm::index3 Foam::mpm::materialPointCloud::returnFromWall
+(
+    const label point
+)
 {
     const lattice& cells = grid_.cells();
     const index3 from = grid_.coordinate(points_.cell()[point]);
@@ -210,7 +213,7 @@ void Foam::mpm::materialPointCloud::returnFromWall(const label point)
         if (to[d] == from[d]) continue;
         index3 trial = to;
         trial[d] = from[d];
-        if (grid_.ownCell(grid_.index(trial)))
+        if (grid_.cellRank(grid_.index(trial)) != backgroundGrid::missing)
         {
             clampTo = trial;
             break;
@@ -225,8 +228,8 @@ void Foam::mpm::materialPointCloud::returnFromWall(const label point)
         points_.column(x_ + d)[point] =
             cells.origin(d) + (i + gap)*cells.spacing(d);
     }
-    setCell(point, clampTo);
     ++counters_.wallContacts;
+    return clampTo;
 }
 
 
@@ -502,23 +505,17 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
                 << exit(FatalError);
         }
 
-        const label target = grid_.index(i);
-        const label rank = grid_.cellRank(target);
-
-        if (rank == backgroundGrid::missing)
+        if (grid_.cellRank(grid_.index(i)) == backgroundGrid::missing)
         {
-            const label patch = boundary_.beyondOpening(target);
+            const label patch = boundary_.beyondOpening(grid_.index(i));
             if (patch >= 0)
             {
                 departures.push_back(departure{p, -1, patch});
+                continue;
             }
-            else
-            {
-                returnFromWall(p);
-                inactive = inactive || !order_.active(points_.cell()[p]);
-            }
-            continue;
+            i = returnFromWall(p);
         }
+        const label rank = grid_.cellRank(grid_.index(i));
 
         // Across a cyclic boundary
         bool wrapped = false;
@@ -840,7 +837,7 @@ Foam::string Foam::mpm::materialPointCloud::pointText(const label p) const
         velocity[grid_.cells().axis(d)] = v(d)[p];
     }
     OStringStream os;
-    os  << "cloud " << name() << ", point " << label(points_.column(id_)[p])
+    os  << "cloud " << name() << ", point " << int64_t(points_.column(id_)[p])
         << ", mesh cell " << grid_.meshCell(points_.cell()[p])
         << ", position " << position(p) << ", velocity " << velocity;
     return os.str();
@@ -889,6 +886,26 @@ void Foam::mpm::materialPointCloud::energy
 }
 
 
+Foam::scalar Foam::mpm::materialPointCloud::affineEnergy() const
+{
+    scalar sum = 0;
+    for (label d = 0; affine() && d < grid_.nDim(); ++d)
+    {
+        const scalar moment =
+            grid_.secondMoment()*sqr(grid_.cells().spacing(d));
+        for (label c = 0; c < grid_.nDim(); ++c)
+        {
+            const scalar* C = points_.column(C_ + c*grid_.nDim() + d);
+            for (label p = 0; p < size(); ++p)
+            {
+                sum += 0.5*mass()[p]*moment*sqr(C[p]);
+            }
+        }
+    }
+    return sum;
+}
+
+
 void Foam::mpm::materialPointCloud::addForceWork(const scalar deltaT)
 {
     for (label d = 0; d < grid_.nDim(); ++d)
@@ -904,9 +921,9 @@ void Foam::mpm::materialPointCloud::addForceWork(const scalar deltaT)
 }
 
 
-Foam::label Foam::mpm::materialPointCloud::globalSize() const
+int64_t Foam::mpm::materialPointCloud::globalSize() const
 {
-    return returnReduce(size(), sumOp<label>());
+    return returnReduce(int64_t(size()), sumOp<int64_t>());
 }
 
 

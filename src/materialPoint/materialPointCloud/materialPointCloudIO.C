@@ -288,7 +288,7 @@ void Foam::mpm::materialPointCloud::readPoints()
         }
     }
 
-    const label total = returnReduce(n, sumOp<label>());
+    const int64_t total = returnReduce(int64_t(n), sumOp<int64_t>());
     if (!total && expectedPoints_ != 0)
     {
         FatalErrorInFunction
@@ -570,13 +570,13 @@ void Foam::mpm::materialPointCloud::describe
 void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
 {
     stepCount_ = dict.lookupOrDefault<label>("stepCount", 0);
-    expectedPoints_ = dict.get<label>("nPoints");
+    expectedPoints_ = readCount(dict, "nPoints");
     writtenFields_ = dict.lookupOrDefault<wordList>("fields", wordList());
     counters_.left.read(dict, "left");
 
     // A global sum; one rank carries it on
     counters_.wallContacts =
-        Pstream::master() ? dict.lookupOrDefault<label>("wallContacts", 0) : 0;
+        Pstream::master() ? readCountOrZero(dict, "wallContacts") : 0;
 
     if (Pstream::master())
     {
@@ -601,7 +601,7 @@ void Foam::mpm::materialPointCloud::writeState(dictionary& dict) const
     dict.set
     (
         "wallContacts",
-        returnReduce(counters_.wallContacts, sumOp<label>())
+        returnReduce(counters_.wallContacts, sumOp<int64_t>())
     );
     if (forced_)
     {

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "soilCloud.H"
+#include "waterCloud.H"
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
 #include <algorithm>
@@ -37,7 +38,7 @@ Foam::mpm::soilPoints Foam::mpm::soilCloud::modelPoints
     }
     s.voidRatio = points.column(voidRatio_) + begin;
     forAll(state_, i) s.state[i] = points.column(state_[i]) + begin;
-    s.liquidViscosity = liquidViscosity_;
+    if (liquid_) s.liquidViscosity = liquid_->fluid().mu();
     return s;
 }
 
@@ -153,9 +154,7 @@ Foam::mpm::soilCloud::soilCloud
     compressionMean_(-1),
     compressionGradient_(-1),
     bedStress_(-1),
-    waterMomentum_(nullptr),
-    liquidViscosity_(0),
-    liquidSoundSpeed_(0),
+    liquid_(nullptr),
     compressionRate_(0),
     shearRate_(0),
     waveSpeedSqr_(0),
@@ -234,19 +233,6 @@ void Foam::mpm::soilCloud::checkDictionary
         },
         strictKeywords
     );
-}
-
-
-void Foam::mpm::soilCloud::setLiquid
-(
-    const nodeField<nodeVector>& momentum,
-    const scalar viscosity,
-    const scalar soundSpeed
-)
-{
-    waterMomentum_ = &momentum;
-    liquidViscosity_ = viscosity;
-    liquidSoundSpeed_ = soundSpeed;
 }
 
 
@@ -338,7 +324,8 @@ Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
 
     // Soil may come in before there is any
     if (empty) waveSpeedSqr = model_->waveSpeedSqr(0, model_->e0());
-    return std::sqrt(waveSpeedSqr + sqr(liquidSoundSpeed_)/porosity);
+    if (liquid_) waveSpeedSqr += sqr(liquid_->fluid().soundSpeed())/porosity;
+    return std::sqrt(waveSpeedSqr);
 }
 
 

@@ -6,6 +6,7 @@ License
 #include "soilKernels.H"
 #include "soilMaterial.H"
 #include "soilCloud.H"
+#include "waterCloud.H"
 #include "cloudKernelsFor.H"
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,9 @@ class soilKernelsFor
               ? work_.saturation[i - begin - 1]
               : kernels_.saturation
                 (
-                    c.coupling_->saturation, *c.waterMomentum_, tile[i]
+                    c.coupling_->saturation,
+                    c.liquid_->nodes().momentum,
+                    tile[i]
                 );
         }
     }
@@ -153,7 +156,8 @@ public:
         const label n = c.size();
         const label* tile = c.points_.tile();
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
-        const nodeField<nodeVector>* water = c.waterMomentum_;
+        const nodeField<nodeVector>* water =
+            c.liquid_ ? &c.liquid_->nodes().momentum : nullptr;
         couplingFields* const coupling =
             c.coupling_ && c.coupling_->contact ? c.coupling_ : nullptr;
 

@@ -57,7 +57,20 @@ Foam::autoPtr<Foam::mpm::soilModel> Foam::mpm::soilModel::New
             << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
-    return found()(subDictOf(cloudDict, name + "Coeffs"), strictKeywords);
+    autoPtr<soilModel> model
+    (
+        found()(subDictOf(cloudDict, name + "Coeffs"), strictKeywords)
+    );
+    const wordList fields(model->stateFields());
+    if (fields.size() > soilPoints::maxStateFields)
+    {
+        FatalIOErrorInFunction(cloudDict)
+            << "keyword constitutiveModel: the soil model " << name << " has "
+            << fields.size() << " fields, " << listed(fields) << '.' << nl
+            << "    Allowed: up to " << soilPoints::maxStateFields
+            << exit(FatalIOError);
+    }
+    return model;
 }
 
 // ************************************************************************* //

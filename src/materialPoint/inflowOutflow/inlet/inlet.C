@@ -333,17 +333,9 @@ Foam::mpm::inlet::inlet
         warnUnusual(dict, {{"voidRatio", 0.2, GREAT, "packings of grains"}});
     }
 
-    const label nPoints = label
-    (
-        readBoundedOrDefault
-        (
-            dict, "pointsPerDirection", dimless, 2, 1, 16, true, true
-        )
-    );
-    const label nCells = label
-    (
-        readBoundedOrDefault(dict, "zoneCells", dimless, 1, 1, 100, true, true)
-    );
+    const label nPoints =
+        readIntegerOrDefault(dict, "pointsPerDirection", 2, 1, 16);
+    const label nCells = readIntegerOrDefault(dict, "zoneCells", 1, 1, 100);
 
     const scalar lower = up_ > 0 ? base_ : -(base_ + depth_);
     zone_.reset

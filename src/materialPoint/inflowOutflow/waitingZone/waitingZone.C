@@ -99,7 +99,7 @@ void Foam::mpm::waitingZone::read(const dictionary& dict)
     arrived_.read(dict, "arrived");
 
     // Of all ranks
-    reused_.n = dict.get<label>("reused");
+    reused_.n = readCount(dict, "reused");
     reused_.mass = exactSum::fromText(dict.get<string>("reusedMassDigits"));
 
     queue_.clear();
