@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from caseBuilder import Setup, box
+from caseBuilder import G, RHO, Setup, box
 from test_wallJet import CloudPoints
 
 SOIL = {"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
@@ -64,3 +64,58 @@ def testStepDoesNotDependOnDrag(tmp_path, figures, d):
         points = CloudPoints(case, cloud, case.times[-1])
         figures.atMost(f"{cloud}: largest speed, m/s",
                        np.abs(points.U).max(), 0.05)
+
+
+def carried(tmp_path, voidRatio, coefficient, end=0.05, ranks=1):
+    """Water and grains that move along an endless wall with friction, 20
+    cells deep. Momenta of grains and water at the start and at the end, and
+    the speed at the start"""
+    speed, depth = 0.2, 0.1
+    case = Setup(
+        cells=(4, 24), h=depth/20, points=2, energy=False,
+        regions={"all": box((0, 0), (0.02, depth), velocity=(speed, 0, 0),
+                            pressure="hydrostatic", level=depth)},
+        soilWall={"type": "frictional", "frictionCoefficient": coefficient},
+        soil={"DruckerPragerCoeffs": {
+            "rhoS": 2650, "d": 0.1e-3, "e0": 0.7, "nu": 0.2, "phi": 35,
+            "psi": 0, "E": 1e6}},
+        soilRegions={"grains": box(
+            (0, 0), (0.02, depth), velocity=(speed, 0, 0),
+            voidRatio=voidRatio, stress="geostatic")},
+        # For decomposePar, which knows no patch type frictional
+        control={"libs": '("libmpmBackgroundGrid.so")'},
+    ).cyclic("x").until(end, end).write(tmp_path/"case").prepare()
+    if ranks > 1:
+        case.decompose(ranks)
+    case.solve(ranks=ranks)
+    found = []
+    for time in ("0", case.times[-1]):
+        soil, water = (CloudPoints(case, c, time) for c in ("soil", "water"))
+        found.append([(c.mass*c.U[:, 0]).sum() for c in (soil, water)])
+    return case, np.array(found), speed
+
+
+@pytest.mark.parametrize("ns, ranks", [(0.05, 1), (0.2, 1), (0.2, 2)])
+def testSuspensionRubsNoWall(tmp_path, figures, ns, ranks):
+    """What carries suspended grains is the water: a wall with friction, on
+    which they do not lie, takes no momentum of them"""
+    case, p, _ = carried(tmp_path, 1/ns - 1, 0.6, ranks=ranks)
+    regime = CloudPoints(case, "soil", case.times[-1])["regime"]
+    figures.equal("points that are not suspended", int((regime != 2).sum()), 0)
+    # 0.54 h of them are at the nodes of the wall
+    held = 0.6*ns*2650*G*0.54*0.005*(0.02*case.setup.spacing[2])*0.05
+    figures.atMost("momentum lost over mu times the weight at the wall",
+                   abs(p[1].sum() - p[0].sum())/held, 0.01)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3])
+def testBedRubsTheWall(tmp_path, figures, mu):
+    """Grains that lie on it press with their weight under water"""
+    end, e = 0.05, 0.7
+    case, p, speed = carried(tmp_path, e, mu, end)
+    pressed = (2650 - RHO)/(1 + e)*G
+    moving = (2650 + RHO*e)/(1 + e)
+    figures.atMost(
+        "momentum lost over mu times the weight under water: error",
+        abs((1 - p[1].sum()/p[0].sum())*speed*moving/(mu*pressed*end) - 1),
+        0.1)

@@ -999,6 +999,40 @@ void Foam::mpm::nodeBoundary::findWallForces
 }
 
 
+std::vector<char> Foam::mpm::nodeBoundary::frictionTiles() const
+{
+    bitSet onWall(grid_.nNodes());
+    for (const frictionNode& f : frictionNodes_) onWall.set(f.node);
+
+    const label nDim = grid_.nDim();
+    const label W = grid_.tileWidth();
+    const label R = grid_.reachWidth();
+    std::vector<char> found(tiles_.size(), 0);
+    for (size_t i = 0; i < tiles_.size(); ++i)
+    {
+        const tileRecord& tile = tiles_[i];
+        const label n = nDim == 2 ? W*W : W*W*W;
+        for (label t = 0; !found[i] && t < n; ++t)
+        {
+            const label o[3] = {t % W, (t/W) % W, t/(W*W)};
+            if (tile.stencil < 0)
+            {
+                label node = tile.first;
+                for (label d = 0; d < nDim; ++d) node += o[d]*grid_.stride(d);
+                found[i] = onWall.test(node);
+                continue;
+            }
+            const label entry = tile.offset + o[0] + R*(o[1] + R*o[2]);
+            const label* wall = walls(tile.stencil);
+            found[i] =
+                onWall.test(targets(tile.stencil)[entry])
+             || (wall && wall[entry] >= 0);
+        }
+    }
+    return found;
+}
+
+
 void Foam::mpm::nodeBoundary::applyFriction
 (
     const std::vector<scalar>& wallForce,

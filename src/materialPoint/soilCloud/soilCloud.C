@@ -150,6 +150,7 @@ Foam::mpm::soilCloud::soilCloud
     model_(soilModel::New(dict, control.strictKeywords)),
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
     voidRatio_(points_.add("voidRatio", pointStorage::scalarValue)),
+    regime_(-1),
     compression_(-1),
     compressionMean_(-1),
     compressionGradient_(-1),
@@ -167,6 +168,7 @@ Foam::mpm::soilCloud::soilCloud
     forAll(fields, i)
     {
         state_[i] = points_.add(fields[i], pointStorage::scalarValue);
+        if (fields[i] == "regime") regime_ = state_[i];
     }
     if (control.smoothing && model_->hasCompression())
     {

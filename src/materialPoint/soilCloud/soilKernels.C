@@ -33,6 +33,11 @@ class soilKernelsFor
     soilCloud& cloud_;
     soilWorkSpace<dim> work_;
 
+    //- Weight of suspended grains near walls with friction, and the tiles
+    //  that are; empty without such walls or without water
+    nodalFields suspended_;
+    std::vector<char> frictionTiles_;
+
 
     material makeMaterial()
     {
@@ -113,6 +118,69 @@ class soilKernelsFor
         s.speed = work_.speed.data();
         s.power = c.energyBalance_ ? work_.power.data() : nullptr;
         return s;
+    }
+
+    //- What pushes on walls with friction, without the weight of suspended
+    //  grains: the water carries it. Of grains that no water carries it is
+    //  the force of the wall itself.
+    void releaseSuspended()
+    {
+        soilCloud& c = cloud_;
+
+        // The same on all ranks
+        if (c.nodes_.ghostMomentum.empty() || !c.liquid_ || c.regime_ < 0)
+        {
+            return;
+        }
+        if (frictionTiles_.empty())
+        {
+            frictionTiles_ = c.boundary_.frictionTiles();
+            suspended_.force.assign(c.grid_.nNodes(), nodeVector{});
+        }
+        nodeField<nodeVector>& weight = suspended_.force;
+        this->forActiveNodes([&](const label i) { weight[i] = nodeVector{}; });
+
+        suspendedWeight<dim> m
+        {
+            c.points_.column(c.mass_), c.points_.column(c.regime_), {}
+        };
+        for (int d = 0; d < dim; ++d)
+        {
+            m.gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
+        }
+
+        const label n = c.size();
+        const label* tile = c.points_.tile();
+        pointView<dim> view(c.template view<dim>());
+        for (label begin = 0; begin < n;)
+        {
+            bool any = false;
+            label end = begin;
+            for (; end < n && tile[end] == tile[begin]; ++end)
+            {
+                any = any || m.regime[end] == soilModel::suspended;
+            }
+            if (any && frictionTiles_[tile[begin]])
+            {
+                view.n = end;
+                kernels_.forcesToGrid
+                    (view, begin, m, suspended_, nullptr, nullptr);
+            }
+            begin = end;
+        }
+        c.grid_.exchange().sum(weight);
+
+        const nodeField<nodeVector>& water = c.liquid_->nodes().momentum;
+        c.boundary_.reduceWallForces
+        (
+            weight,
+            [&](const label node)
+            {
+                return
+                    water[node][dim] > 0 ? c.coupling_->saturation[node] : 0.0;
+            },
+            c.nodes_.wallForce
+        );
     }
 
 public:
@@ -206,6 +274,7 @@ public:
         // Before the pressure of the water adds to the forces: friction is of
         // the effective stress
         c.boundary_.findWallForces(c.nodes_.force, c.nodes_.wallForce);
+        releaseSuspended();
         this->filter();
         c.cost_.stop();
     }
