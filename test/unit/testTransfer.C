@@ -100,6 +100,31 @@ void fillRandomly(waterScene& s, const bool affine)
     s.cloud().relocate(0);
 }
 
+//- Kinetic energy of the points, with that of their gradients, and of the
+//  nodes
+scalar energyOfPoints(waterScene& s, const bool affine)
+{
+    scalar kinetic = 0, potential = 0, elastic = 0;
+    s.cloud().energy(vector(Zero), kinetic, potential, elastic);
+    return kinetic + (affine ? s.cloud().affineEnergy() : 0);
+}
+
+scalar energyOfNodes(waterScene& s)
+{
+    const nodalFields& nodes = s.cloud().nodes();
+    const label dim = s.grid().nDim();
+    scalar sum = 0;
+    for (label i = 0; i < s.grid().nNodes(); ++i)
+    {
+        for (label d = 0; d < dim; ++d)
+        {
+            sum += 0.5*s.grid().share(i)*nodes.momentum[i][dim]
+               *sqr(nodes.velocity[i][d]);
+        }
+    }
+    return sum;
+}
+
 } // End anonymous namespace
 
 
@@ -425,6 +450,20 @@ TEST_CASE("transfer: affine points give the grid their linear field")
             }
             s.cloud().particlesToGrid();
 
+            // An affine motion loses nothing, with the energy of gradients
+            const scalar ofNodes = energyOfNodes(s);
+            atMost
+            (
+                shape + ' ' + std::to_string(dim) + "D: energy of points and"
+                " nodes, relative difference",
+                mag(energyOfPoints(s, true)/ofNodes - 1), 1e-12
+            );
+            atLeast
+            (
+                "of it gradients",
+                1 - energyOfPoints(s, false)/ofNodes, 1e-3
+            );
+
             scalar worst = 0;
             label nodes = 0;
             for (label i = 0; i < s.grid().nNodes(); ++i)
@@ -447,6 +486,41 @@ TEST_CASE("transfer: affine points give the grid their linear field")
             const std::string name = shape + ' ' + std::to_string(dim) + "D: ";
             atLeast(name + "nodes", nodes, dim == 2 ? 30 : 120);
             atMost(name + "nodal velocity - (a + A x)", worst, 1e-11);
+        }
+    }
+}
+
+
+TEST_CASE("transfer: APIC only loses energy, in both directions")
+{
+    for (int dim = 2; dim <= 3; ++dim)
+    {
+        for (const std::string shape : {"quadraticBSpline", "cubicBSpline"})
+        {
+            for (const std::string wall : {"slip", "noSlip"})
+            {
+                typeMap type;
+                for (const std::string& side : sides) type[side] = wall;
+                waterScene s
+                (
+                    box(dim, 5, 4, 3), vector(Zero), type, shape,
+                    "transfer APIC; apicRate 1e12;"
+                );
+                fillRandomly(s, true);
+                const scalar start = energyOfPoints(s, true);
+                s.cloud().particlesToGrid();
+                const scalar nodes = energyOfNodes(s);
+                const scalar deltaT = 1e-9;
+                s.cloud().updateStress(deltaT);
+                s.cloud().gridToParticles(deltaT);
+                const scalar end = energyOfPoints(s, true);
+
+                const std::string name =
+                    shape + ' ' + std::to_string(dim) + "D, " + wall + ": ";
+                atMost(name + "nodes over points", nodes/start, 1);
+                atMost(name + "points over nodes", end/nodes, 1);
+                atLeast(name + "of it gradients", s.cloud().affineEnergy()/end, 0.01);
+            }
         }
     }
 }

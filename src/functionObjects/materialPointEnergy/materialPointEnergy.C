@@ -36,6 +36,7 @@ Foam::stringList Foam::mpm::materialPointEnergy::description() const
     return stringList
     ({
         "Energies and works [J]; total = kinetic + potential + stressWork"
+      + string(cloud().affine() ? " + affine" : "")
       + string(cloud().forced() ? " - forceWork" : "")
       + string(cloud().relaxes() ? " - relaxationWork" : "")
     });
@@ -51,6 +52,7 @@ Foam::wordList Foam::mpm::materialPointEnergy::columns() const
     });
     if (cloud().forced()) names.append("forceWork");
     if (cloud().relaxes()) names.append("relaxationWork");
+    if (cloud().affine()) names.append("affine");
     return names;
 }
 
@@ -60,7 +62,8 @@ Foam::scalarList Foam::mpm::materialPointEnergy::values() const
     // Beside those that are always there
     const label forced = cloud().forced();
     const label relaxes = cloud().relaxes();
-    scalarList e(6 + forced + relaxes, Zero);
+    const label affine = cloud().affine();
+    scalarList e(6 + forced + relaxes + affine, Zero);
     scalar& kinetic = e[0];
     scalar& potential = e[1];
     scalar& elastic = e[2];
@@ -73,10 +76,12 @@ Foam::scalarList Foam::mpm::materialPointEnergy::values() const
     correctionWork = cloud().correctionWork();
     if (forced) e[6] = cloud().forceWork();
     if (relaxes) e[6 + forced] = cloud().relaxationWork();
+    if (affine) e.last() = cloud().affineEnergy();
     sumToMaster(e);
 
     total = kinetic + potential + stressWork;
-    for (label i = 6; i < e.size(); ++i) total -= e[i];
+    for (label i = 6; i < 6 + forced + relaxes; ++i) total -= e[i];
+    if (affine) total += e.last();
     return e;
 }
 
