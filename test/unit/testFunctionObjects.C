@@ -570,8 +570,21 @@ TEST_CASE("materialPointEnergy: against sums over the points")
     auto pressure = [](const point& x) { return 5e4*x.x(); };
     s.fill(2, [](const point& x) { return x.y() < 0.4; }, velocity, pressure);
 
-    // The same by hand: mass rho V, energy of the equation of state
-    scalar kinetic = 0, potential = 0, elastic = 0;
+    // With the gradient of that velocity, which APIC carries
+    pointStorage& points = const_cast<pointStorage&>(s.cloud().points());
+    for (const pointStorage::field& f : points.fields())
+    {
+        if (f.name != "velocityGradient") continue;
+        for (label p = 0; p < s.cloud().size(); ++p)
+        {
+            points.column(f.first + 1)[p] = -2;
+            points.column(f.first + 2)[p] = 3;
+        }
+    }
+
+    // The same by hand: mass rho V, energy of the equation of state, and of
+    // the motion in the second moment h^2/4 of the shape function
+    scalar kinetic = 0, potential = 0, elastic = 0, affine = 0;
     const scalar B = 20.0*20*1000/7;
     for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 8; ++j)
@@ -583,11 +596,12 @@ TEST_CASE("materialPointEnergy: against sums over the points")
         kinetic += 0.5*m*magSqr(velocity(x));
         potential -= m*(g & x);
         elastic += V/J*B*((std::pow(J, -6) - 1)/6 + J - 1);
+        affine += 0.5*m*(4 + 9)*sqr(0.1)/4;
     }
 
     make(s, "type materialPointEnergy; writePrecision 16;");
     const auto row = rows(s, "energy")[0];
-    REQUIRE(row.size() == 7);
+    REQUIRE(row.size() == 8);
 
     atMost("kinetic, relative", mag(row[1]/kinetic - 1), 1e-12);
     atMost("potential, relative", mag(row[2]/potential - 1), 1e-12);
@@ -596,8 +610,10 @@ TEST_CASE("materialPointEnergy: against sums over the points")
     atMost("correctionWork at the start", mag(row[5]), 0);
     atMost
     (
-        "total, relative", mag(row[6]/(kinetic + potential) - 1), 1e-12
+        "total, relative",
+        mag(row[6]/(kinetic + potential + affine) - 1), 1e-12
     );
+    atMost("affine, relative", mag(row[7]/affine - 1), 1e-12);
 }
 
 
