@@ -84,25 +84,6 @@ TEST_CASE("exactSum: text and digits")
 }
 
 
-TEST_CASE("massAccount: more points than a label of 32 bits holds")
-{
-    massAccount a;
-    a.n = 3000000000;
-    a.mass += 0.1;
-    dictionary written;
-    a.write(written, "entered");
-
-    // As text, as a restart reads it
-    OStringStream os;
-    os  << written;
-    massAccount b;
-    b.read(dictionary(IStringStream(os.str())()), "entered");
-    equal("points", std::to_string(b.n), "3000000000");
-    b.add(0.1);
-    equal("and one more", std::to_string(b.global().n), "3000000001");
-}
-
-
 TEST_CASE("massAccount: over a dictionary")
 {
     massAccount a;
