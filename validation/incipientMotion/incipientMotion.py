@@ -20,17 +20,25 @@ from mpmfoam import coupled, metrics, reference, study, style  # noqa: E402
 
 G, RHO, RHO_S, D = 9.81, 1000, 2650, 0.85e-3
 BED, DEPTH, HEIGHT = 0.05, 0.05, 0.11
-LENGTH = {0.005: 0.1, 0.0025: 0.05}
+LENGTH = {0.005: 0.1, 0.0025: 0.05, 0.00125: 0.025}
 END = {0.005: 10, 0.0025: 5}
 
 # Momentum diffusivity of the scheme, for a start near the steady profile; the
 # measured stress does not rest on it [m2/s]
-NU_SCHEME = {0.005: 1.3e-4, 0.0025: 8e-5}
+NU_SCHEME = {0.005: 1.3e-4, 0.0025: 8e-5, 0.00125: 5e-5}
 
 # Stresses aimed at [Pa]; a half of the Shields stress first
 SHIELDS_HALF = 0.267
 AIMS = {0.005: [SHIELDS_HALF, 0.5, 1, 1.4, 2, 2.8, 4, 5.6],
         0.0025: [SHIELDS_HALF, 1, 1.4, 2, 2.8, 4]}
+
+# Beds at rest under at most 0.3 Pa: a thinner bed and less water, so that the
+# finest grid can be afforded; stiffness of the soil uncapped and capped [m/s];
+# (h, cap): end [s]
+QUIET_BED, QUIET_DEPTH = 0.025, 0.03
+QUIET_AIM = {0.005: 0.5, 0.0025: 0.9, 0.00125: 1.2}
+QUIET = {(0.005, 20): 5, (0.005, None): 5, (0.0025, 20): 5,
+         (0.0025, None): 2, (0.00125, 20): 2}
 
 # Transport that counts as motion, over sqrt((s - 1) g d^3): a thousandth, where
 # the formula of Meyer-Peter and Mueller gives 0.0001 to 0.01 near its threshold
@@ -75,6 +83,71 @@ def current(h, aim):
         about={"h": h, "aim": aim, "slope": slope})
 
 
+def quiet(h, cap):
+    """A bed that should rest, watched closely"""
+    length, aim, end = LENGTH[h], QUIET_AIM[h], QUIET[h, cap]
+    top = QUIET_BED + QUIET_DEPTH
+    up = round(top/h) + 2
+    slope = aim/(RHO*QUIET_DEPTH*G)
+    mpm = {"MPM/logInterval": 1000}
+    if cap:
+        mpm["MPM/maxSoilSoundSpeed"] = cap
+    return study.Run(
+        f"quiet_h{h:g}_{f'cap{cap:g}' if cap else 'uncapped'}",
+        [HERE/"case"], study.MPMFOAM,
+        {"system/blockMeshDict": {
+            "h": h, "nx": round(length/h), "ny": up, "length": length,
+            "height": up*h},
+         "system/setMaterialPointsDict": {
+             "water/regions/current/min": [0, QUIET_BED, -1],
+             "water/regions/current/max": [length, top, 1],
+             "water/regions/current/level": top,
+             "water/regions/current/velocity": [0, 0, 0],
+             "water/regions/current/velocityGradient":
+                 [0, aim/RHO/NU_SCHEME[h], 0, 0, 0, 0, 0, 0, 0],
+             "water/regions/current/centre": [0, QUIET_BED, 0],
+             "water/regions/pores/max": [length, QUIET_BED, 1],
+             "water/regions/pores/level": top,
+             "soil/regions/bed/max": [length, QUIET_BED, 1]},
+         "constant/g": {"value": [G*slope, -G, 0]},
+         "constant/materialPointProperties": {
+             "water/weaklyCompressibleNewtonianCoeffs/soundSpeed": 20},
+         "system/controlDict": {"endTime": end, "writeInterval": 0.02},
+         "system/fvSolution": mpm},
+        about={"h": h, "cap": cap or 0, "aim": aim, "slope": slope,
+               "quiet": True})
+
+
+def quietness(run):
+    """How quiet the bed is, over the second half of the run. The top row of
+    points is that of the start. Its effective pressure differs with the depth
+    of its points, by a straight line; what is left in space is the swing of the
+    means of the points about that line, in time that of each about its mean"""
+    h, case = run.about["h"], run.case
+    stress, transport, way, _ = coupled.currentOverBed(
+        case, LENGTH[h], QUIET_BED, G*run.about["slope"], RHO_S)
+    times = case.times()
+    ids = case.cloudField(times[0], "soil", "id")
+    y = case.cloudField(times[0], "soil", "x")[np.argsort(ids), 1]
+    top = y > QUIET_BED - h/2
+    p, depth, separated = [], [], []
+    for t in times[len(times)//2:]:
+        order = np.argsort(case.cloudField(t, "soil", "id"))[top]
+        p.append(case.cloudField(t, "soil", "p")[order])
+        depth.append(QUIET_BED - case.cloudField(t, "soil", "x")[order, 1])
+        separated.append(case.cloudField(t, "soil", "regime")[order] == 3)
+    p = np.array(p)
+    mean, where = p.mean(axis=0), np.mean(depth, axis=0)
+    line = np.polyval(np.polyfit(where, mean, 1), where)
+    return {"h": h, "cap": run.about["cap"], "seconds": float(times[-1]),
+            "stress": stress, "transport": transport/SCALE,
+            "longestPathOverD": np.abs(way).max()/D,
+            "separatedTopRow": np.mean(separated),
+            "pTopRow": mean.mean(), "swingInTime": (p - mean).std(),
+            "swingInSpace": (mean - line).std(),
+            "spreadByDepth": line.std(), "wallTime": run.log.wallTime}
+
+
 def measures(run):
     h = run.about["h"]
     stress, transport, way, suspended = coupled.currentOverBed(
@@ -102,6 +175,26 @@ def threshold(rows):
 
 
 def evaluate(done, results):
+    beds = [quietness(run) for run in done.values() if "quiet" in run.about]
+    if beds:
+        reference.writeCsv(
+            results/"quiet.csv", {k: [r[k] for r in beds] for k in beds[0]},
+            "stress and p in Pa; cap 0: none")
+        found = {}
+        for row in beds:
+            name = f"h{row['h']:g}_" + (
+                f"cap{row['cap']:g}" if row["cap"] else "uncapped")
+            found.update({f"{k}_{name}": v for k, v in row.items()
+                          if k not in ["h", "cap"]})
+        metrics.printTable(found, "asked: transport < 1e-4, path < 1 d, "
+                           "separated < 1 %, swing < 1 Pa")
+        found.update(study.provenance(
+            {n: run for n, run in done.items() if "quiet" in run.about}))
+        metrics.writeMetrics(results/"quiet.json", found)
+    done = {name: run for name, run in done.items()
+            if "quiet" not in run.about}
+    if not done:
+        return
     rows = [measures(run) for run in done.values()]
     critical = criteria()
     out = {f"criticalStress{name}": tau for name, tau in critical.items()}
@@ -148,5 +241,6 @@ def evaluate(done, results):
 
 
 if __name__ == "__main__":
-    study.main(HERE, [current(h, aim) for h in AIMS for aim in AIMS[h]],
+    study.main(HERE, [current(h, aim) for h in AIMS for aim in AIMS[h]]
+               + [quiet(h, cap) for h, cap in QUIET],
                evaluate, __doc__)
