@@ -37,8 +37,8 @@ AIMS = {0.005: [SHIELDS_HALF, 0.5, 1, 1.4, 2, 2.8, 4, 5.6],
 # (h, cap): end [s]
 QUIET_BED, QUIET_DEPTH = 0.025, 0.03
 QUIET_AIM = {0.005: 0.5, 0.0025: 0.9, 0.00125: 1.2}
-QUIET = {(0.005, 20): 5, (0.005, None): 5, (0.0025, 20): 5,
-         (0.0025, None): 2, (0.00125, 20): 2}
+QUIET = {(0.005, 20): 5, (0.005, None): 5, (0.0025, 20): 3,
+         (0.0025, None): 1, (0.00125, 20): 1}
 
 # Transport that counts as motion, over sqrt((s - 1) g d^3): a thousandth, where
 # the formula of Meyer-Peter and Mueller gives 0.0001 to 0.01 near its threshold
