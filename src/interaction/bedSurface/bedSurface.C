@@ -8,6 +8,7 @@ License
 #include "nodeBoundary.H"
 #include "couplingFields.H"
 #include "PstreamReduceOps.H"
+#include "nodalFields.H"
 #include <algorithm>
 #include <cmath>
 
@@ -95,6 +96,7 @@ Foam::mpm::bedSurface::bedSurface
     weight_(grid.nNodes(), 0),
     perCopy_(grid.nNodes(), 0),
     push_(grid.nNodes(), nodeVector{}),
+    flow_(grid.nNodes(), nodeVector{}),
     work_(grid.nNodes(), nodeVector{}),
     meanStress_(0)
 {
@@ -112,8 +114,11 @@ Foam::mpm::bedSurface::bedSurface
 void Foam::mpm::bedSurface::update
 (
     const scalar bedFraction,
+    const scalar density,
     const std::function<scalar(const label)>& solidFraction,
     const std::function<bool(const label)>& wet,
+    const nodalFields& soil,
+    const nodalFields& water,
     const std::function
     <
         void(const setForces&)
@@ -132,6 +137,7 @@ void Foam::mpm::bedSurface::update
     zero(force_);
     zero(area_);
     zero(push_);
+    zero(flow_);
     zero(work_);
     for (const auto& range : ranges_)
     {
@@ -152,7 +158,7 @@ void Foam::mpm::bedSurface::update
             {
                 return;
             }
-            bool soil = solidFraction(i) > 0;
+            bool beside = solidFraction(i) > 0;
             nodeVector area{};
             scalar slopeSqr = 0;
             for (label d = 0; d < dim; ++d)
@@ -160,13 +166,13 @@ void Foam::mpm::bedSurface::update
                 const label s = grid_.stride(d);
                 const scalar below = solidFraction(i - s);
                 const scalar above = solidFraction(i + s);
-                soil = soil || below > 0 || above > 0;
+                beside = beside || below > 0 || above > 0;
                 const scalar slope =
                     (below - above)/(2*cells.spacing(d)*bedFraction);
                 slopeSqr += sqr(slope);
                 area[d] = volume*slope;
             }
-            if (!soil) return;
+            if (!beside) return;
 
             perCopy_[i] = 1;
             area_[i] = area;
@@ -175,6 +181,27 @@ void Foam::mpm::bedSurface::update
                 min(max(2*(1 - phi), scalar(0)), scalar(1))
                *min(4*h*std::sqrt(slopeSqr), scalar(1));
             force_[i][3] = weight_[i]*solidFraction(i)*volume;
+
+            // Water over the bed, relative to the soil beside it
+            scalar near = phi;
+            nodeVector grains = soil.momentum[i];
+            for (label d = 0; d < dim; ++d)
+            {
+                for (const label s : {-grid_.stride(d), grid_.stride(d)})
+                {
+                    near = max(near, solidFraction(i + s)/bedFraction);
+                    grains += soil.momentum[i + s];
+                }
+            }
+            const scalar part =
+                min(2*near, scalar(1))*max(1 - phi, scalar(0))
+               *water.momentum[i][dim];
+            for (label d = 0; d < dim; ++d)
+            {
+                const scalar grain = grains[d]/max(grains[dim], VSMALL);
+                flow_[i][d] = part*(water.velocity[i][d] - grain);
+            }
+            flow_[i][3] = part;
         }
     );
     forces
@@ -197,16 +224,19 @@ void Foam::mpm::bedSurface::update
         share(force_);
         share(area_);
         share(push_);
+        share(flow_);
     }
     for (label pass = 0; pass < nPasses; ++pass)
     {
         smooth(force_);
         smooth(area_);
         smooth(push_);
+        smooth(flow_);
     }
 
     scalar sumArea = 0;
     nodeVector sumForce{};
+    scalar sumDrag = 0, sumResistance = 0;
     const scalar least = leastArea*volume/h;
     forInner
     (
@@ -238,16 +268,38 @@ void Foam::mpm::bedSurface::update
             nodeVector stress = (force_[i] - into*normal)*(1/area);
             const scalar thickness = force_[i][3]/area;
 
-            sumArea += grid_.share(i)*area;
-            sumForce += (grid_.share(i)*area)*stress;
+            // Along the bed, to the power of the resistance
+            nodeVector flow{};
+            if (flow_[i][3] > 0) flow = flow_[i]*(1/flow_[i][3]);
+            scalar flowInto = 0;
+            for (label d = 0; d < dim; ++d) flowInto += flow[d]*normal[d];
+            flow -= flowInto*normal;
+            scalar flowSqr = 0, along = 0;
+            for (label d = 0; d < dim; ++d)
+            {
+                flowSqr += sqr(flow[d]);
+                along += flow[d]*stress[d];
+            }
+            const scalar speed = std::sqrt(flowSqr);
+            const scalar share = grid_.share(i)*area;
+            if (speed > 0)
+            {
+                sumDrag += share*along/speed;
+                sumResistance += share*std::pow(speed, exponent);
+                flow *= std::pow(speed, exponent - 1);
+            }
+            for (label d = dim; d < 4; ++d) flow[d] = 0;
 
-            stress[3] = 0;
+            sumArea += share;
+            sumForce += share*stress;
+
+            force_[i] = flow;
             area_[i] = normal;
             area_[i][dim] = thickness > 0 ? weight_[i]/thickness : 0;
-            if (dim == 2) stress[2] = 0;
-            force_[i] = stress;
         }
     );
+    reduce(sumDrag, sumOp<scalar>());
+    reduce(sumResistance, sumOp<scalar>());
     reduce(sumArea, sumOp<scalar>());
     scalar sumSqr = 0;
     for (label d = 0; d < dim; ++d)
@@ -255,6 +307,22 @@ void Foam::mpm::bedSurface::update
         sumSqr += sqr(returnReduce(scalar(sumForce[d]), sumOp<scalar>()));
     }
     meanStress_ = sumArea > 0 ? std::sqrt(sumSqr)/sumArea : 0;
+
+    // Not bounded at each step: what is noise cancels in the points' mean
+    const scalar coefficient = sumResistance > 0 ? sumDrag/sumResistance : 0;
+    const scalar most = maxFriction*density;
+    forInner
+    (
+        [&](const label i)
+        {
+            scalar sizeSqr = 0;
+            for (label d = 0; d < dim; ++d) sizeSqr += sqr(force_[i][d]);
+            const scalar stress = mag(coefficient)*std::sqrt(sizeSqr);
+            if (!(stress > 0)) return;
+            const scalar bound = most*std::pow(sizeSqr, 1/exponent);
+            force_[i] *= coefficient*min(scalar(1), bound/stress);
+        }
+    );
 }
 
 // ************************************************************************* //

@@ -1026,8 +1026,19 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
                 << " porosity; the soil is over-compacted there" << nl;
         }
     }
+    // Where the surface of the bed has to be found for it, it costs half a step
+    const label rarely =
+        logInterval_*((bedInterval + logInterval_ - 1)/logInterval_);
     soilCloud::bedState bed{};
-    if (soil_ && soil_->bed(bed) && bed.stress > 0)
+    if
+    (
+        soil_
+     && (
+            (interaction_.valid() && interaction_->followsSurface())
+         || step % rarely == 0 || runTime.writeTime()
+        )
+     && soil_->bed(bed) && bed.stress > 0
+    )
     {
         // The top row holds what is thinner than this (rowStress of
         // bedLoadModel)

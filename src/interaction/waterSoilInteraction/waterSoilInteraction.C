@@ -236,7 +236,11 @@ Foam::mpm::waterSoilInteraction::bedState() const
         return soilCloud::bedState{unknown, unknown};
     }
 
-    soilCloud::bedState b{0, 0};
+    // The log and function objects ask for the same one
+    soilCloud::bedState& b = bedState_;
+    if (bedStep_ == water_.stepCount()) return b;
+    bedStep_ = water_.stepCount();
+
     if (surface_.valid())
     {
         b.stress = surface_->meanStress();
@@ -340,11 +344,14 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
     surface.update
     (
         1/(1 + e),
+        water_.fluid().rho0(),
         [&](const label i)
         {
             return soil.momentum[i][dim]*perRhoS*inverseVolume[i];
         },
         [&](const label i) { return water.momentum[i][dim] > 0; },
+        soil,
+        water,
         [&](const auto& set)
         {
             const label n = nodes_.size();
@@ -395,6 +402,8 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     implicitDrag_(implicitDrag),
     fields_(water.boundary().inverseVolume()),
     nPacked_(0),
+    bedState_{0, 0},
+    bedStep_(-1),
     folded_(water.boundary().foldedComponents())
 {
     if (!implicitDrag_)
