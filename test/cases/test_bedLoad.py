@@ -220,6 +220,19 @@ def testRanks(tmp_path, figures, dim):
                    np.abs(x[0][1] - x[1][1]).max()/scale, 1e-10)
 
 
+def testLogFindsTheBedRarely(tmp_path, figures):
+    """Where nothing else needs the bed's surface, it costs half a step: at
+    most every 100 steps, and when a time is written"""
+    for law, most in [("none", 3), ("MeyerPeterMueller", 21)]:
+        case = current(1, law).steps(210).write(tmp_path/law)
+        case.prepare()
+        case.solve()
+        figures.equal(f"{law}: entries of the log", len(re.findall(
+            "^Time = ", (case.path/"log.mpmFoam").read_text(), re.M)), 21)
+        figures.equal(f"{law}: with the stress on the bed",
+                      len(loggedStress(case)), most)
+
+
 @pytest.mark.parametrize("law, coeffs, expect", [
     ("vanRijn", None, ["bedLoad", "vanRijn", "WongParker"]),
     ("MeyerPeterMueller", {"criticalShields": 2}, ["criticalShields", "2"]),
