@@ -24,9 +24,10 @@ SCALE = np.sqrt((RHO_S/RHO - 1)*G*D**3)
 # measured stress does not rest on it [m2/s]
 NU_SCHEME = {0.005: 7e-5, 0.0025: 2.4e-5}
 
-# Stresses aimed at [Pa]: half the critical one, then theta 0.075, 0.15, 0.29;
-# ends of the runs [s], of an averaging time of 0.66 s
-AIMS = [0.32, 1.03, 2.06, 4]
+# Stresses aimed at [Pa]; what comes out is from half the critical one to theta
+# 0.3; ends of the runs [s], with an averaging time of 0.66 s
+AIMS = {0.005: [0.38, 1.03, 1.38, 2.06, 2.5, 3.3],
+        0.0025: [0.49, 1.22, 1.39, 1.75, 2.06, 2.5]}
 END = {0.005: 3, 0.0025: 2.4}
 
 # A dune and a hole, from, to and height [m]
@@ -215,12 +216,12 @@ if __name__ == "__main__":
     LAW = "MeyerPeterMueller"
     study.main(
         HERE,
-        [current(h, aim, LAW) for h in END for aim in AIMS]
-        + [uneven(h, 0.32, LAW) for h in END]
+        [current(h, aim, LAW) for h in AIMS for aim in AIMS[h]]
+        + [uneven(h, 0.32, LAW) for h in AIMS]
         + [current(0.005, 2.06, LAW, seed=n) for n in (2, 3)]
         + [make(0.005, aim, LAW, averagingTime=t)
            for make, aim in [(current, 1.03), (uneven, 0.32)]
            for t in (0.33, 1.32)]
-        + [current(h, aim, "none") for h in END for aim in AIMS]
+        + [current(h, aim, "none") for h in AIMS for aim in AIMS[h]]
         + [uneven(0.005, 0.32, "none")],
         evaluate, __doc__)

@@ -281,17 +281,17 @@ void Foam::mpm::bedSurface::update
                 along += flow[d]*stress[d];
             }
             const scalar speed = std::sqrt(flowSqr);
-            const scalar share = grid_.share(i)*area;
+            const scalar part = perCopy_[i]*area;
             if (speed > 0)
             {
-                sumDrag += share*along/speed;
-                sumResistance += share*std::pow(speed, exponent);
+                sumDrag += part*along/speed;
+                sumResistance += part*std::pow(speed, exponent);
                 flow *= std::pow(speed, exponent - 1);
             }
             for (label d = dim; d < 4; ++d) flow[d] = 0;
 
-            sumArea += share;
-            sumForce += share*stress;
+            sumArea += part;
+            sumForce += part*stress;
 
             force_[i] = flow;
             area_[i] = normal;

@@ -1026,16 +1026,15 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
                 << " porosity; the soil is over-compacted there" << nl;
         }
     }
-    // Where the surface of the bed has to be found for it, it costs half a step
-    const label rarely =
-        logInterval_*((bedInterval + logInterval_ - 1)/logInterval_);
+    // Where the surface of the bed has to be found for it, it costs half a step,
+    // and the nodes have their sums at write times only
     soilCloud::bedState bed{};
     if
     (
         soil_
      && (
             (interaction_.valid() && interaction_->followsSurface())
-         || step % rarely == 0 || runTime.writeTime()
+         || runTime.writeTime()
         )
      && soil_->bed(bed) && bed.stress > 0
     )
