@@ -174,14 +174,15 @@ class waterKernelsFor
                 waterCloud::insideSaturation
             )
         );
-        // No faster than the largest error of a single point
         bool any = false;
         for (const scalar e : excess) any = any || e != 0;
         if (any)
         {
             c.correctBasins
             (
-                excess, makeMaterial(deltaT).correction*material::maxError
+                excess,
+                waterCloud::basinCorrectionRate*c.fluid_.soundSpeed()*deltaT
+               /c.grid_.cells().minSpacing()
             );
         }
     }
