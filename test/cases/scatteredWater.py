@@ -51,9 +51,16 @@ SCENES = {
         "gate": {"solid": [((k//2, 3), (k//2 + 2, k))]},
         "film": {"film": 0.5}}.items()}
 
+# On finer grids, for sweep.py where it is told so
+FINER = {
+    f"obstacle3D_{n}": (
+        lambda dim, n=n, **s: tank(dim, n=n, end=2, **s), 3,
+        {"solid": [((n//2, 0), (n//2 + max(2, n//8), n//6 + 1))]})
+    for n in [16, 32]}
+
 
 def made(scene, points=2, jitter=0.5, seed=1, maxCo=0.5):
-    make, dim, entries = SCENES[scene]
+    make, dim, entries = {**SCENES, **FINER}[scene]
     setup = make(dim, **entries)
     setup.points = points
     setup.mpm["maxCo"] = maxCo

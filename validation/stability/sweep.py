@@ -4,6 +4,7 @@ gate, step, lid and films, in 2D and 3D, from many placements and seeds. Each
 must run to its end, keep its mass and its level, and never win energy.
 
     ./sweep.py [--seeds N] [--maxCo 0.5 0.7] [--only WORD] [--jobs N]
+    ./sweep.py --only obstacle3D_16 --points 3 4
 
 Writes results/sweep.csv, a row each run; resumable: rows that are there are
 not run again.
@@ -25,7 +26,7 @@ REPOSITORY = HERE.parents[1]
 for place in ["etc/python", "test", "test/cases"]:
     sys.path.insert(0, str(REPOSITORY/place))
 
-from scatteredWater import JITTERS, SCENES, judge, made  # noqa: E402
+from scatteredWater import FINER, JITTERS, SCENES, judge, made  # noqa: E402
 
 FIELDS = ["scene", "points", "jitter", "seed", "maxCo", "held", "reason",
           "growth", "level", "commit"]
@@ -70,10 +71,12 @@ def main():
         with open(args.results) as file:
             done = list(csv.DictReader(file))
     known = {key(row) for row in done}
+    scenes = [s for s in SCENES if args.only in s] or [
+        s for s in FINER if args.only in s]
     todo = [(scene, points, jitter, seed, maxCo)
             for maxCo in args.maxCo for points in args.points
             for seed in range(1, args.seeds + 1) for jitter in args.jitter
-            for scene in SCENES if args.only in scene]
+            for scene in scenes]
     todo = [t for t in todo if tuple(str(x) for x in t) not in known]
     print(f"{len(known)} rows are there, {len(todo)} runs to do", flush=True)
 
