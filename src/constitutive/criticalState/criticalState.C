@@ -40,6 +40,13 @@ Foam::mpm::criticalState::criticalState
       : kpExponent_/(1 - elasticity.n())
     ),
     pE_(min(elasticity.uncapped().pE, granularElasticity::pAt)),
+    inversePE_(1/max(pE_, VSMALL)),
+    kpRoot_
+    (
+        kpExponent_ == 0.5 && kpExponentBelow_ == 1
+      ? kp_/std::sqrt(granularElasticity::pAt)
+      : 0
+    ),
     np_(readBounded(coeffs, "np", dimless, 0, GREAT, true)),
     nd_(readBounded(coeffs, "nd", dimless, 0, GREAT, true))
 {
