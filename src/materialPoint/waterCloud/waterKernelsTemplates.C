@@ -171,7 +171,7 @@ class waterKernelsFor
                 c.coupling_
               ? c.coupling_->inversePoreVolume
               : c.boundary_.inverseVolume(),
-                waterCloud::insideSaturation
+                waterCloud::fullBasinSaturation
             )
         );
         bool any = false;
