@@ -1,4 +1,4 @@
-"""Points over time in one HDF5 file per cloud: against the lagrangian files,
+"""Points over time in HDF5, one series per cloud: against the lagrangian files,
 on two ranks, over restarts and kills, and as ParaView sees them."""
 
 import json
@@ -165,16 +165,12 @@ def testKilled(tmp_path, figures):
         return s.endless(25)
 
     case = setup().write(tmp_path/"case").prepare()
-    last, between, journals = -1, 0, 0
+    last, between = -1, 0
     for end in [0.005, 0.012, 0.02, 0.027]:
         process = case.start()
         case.waitForTime(process, end)
         process.kill()
         process.wait()
-        if path(case, suffix="h5.journal").exists():
-            # The next start completes it
-            journals += 1
-            continue
         times = read(case)
         figures.equal(f"killed at {end} s: steps in the file",
                       [t[0] for t in times], list(range(len(times))))
@@ -183,7 +179,6 @@ def testKilled(tmp_path, figures):
         last = times[-1][0]
         between += last % 25 != 0
     figures.atLeast("kills behind the last restart", between, 1)
-    figures.show("kills that left a journal", journals)
     # The start finds the step behind which the file goes on
     case.change(control={"stopAt": "nextWrite"})
     case.solve()
@@ -194,6 +189,31 @@ def testKilled(tmp_path, figures):
     whole.rewrite()
     whole.solve()
     equalTimes(figures, "four kills and none", read(case), read(whole))
+
+
+def testDuringARun(tmp_path, figures):
+    """The file opens at any moment, and what it shows is whole"""
+    s = scene().endless(25)
+    s.functions["water"].update(writeControl="timeStep", writeInterval=1)
+    case = s.write(tmp_path/"case").prepare()
+    process = case.start()
+    case.waitForTime(process, 0.002)
+    # Held open: the run must not mind
+    with h5py.File(path(case), "r") as early:
+        n = len(early)
+        seen = []
+        while not seen or (seen[-1] < n + 20 and process.poll() is None):
+            times = read(case)
+            seen.append(len(times))
+            assert all(len(t[2]["x"]) == len(t[2]["id"]) for t in times)
+        figures.equal("times in the file that was opened first", len(early), n)
+        figures.equal("last of them", len(early[max(early)]["x"]),
+                      len(early["000000/x"]))
+    process.kill()
+    process.wait()
+    figures.atLeast("times that came while it was read", seen[-1] - n, 20)
+    figures.equal("series that became shorter",
+                  sum(a > b for a, b in zip(seen, seen[1:])), 0)
 
 
 def leaving(**entries):

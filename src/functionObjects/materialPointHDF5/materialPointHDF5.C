@@ -256,7 +256,6 @@ bool Foam::mpm::materialPointHDF5::write()
     std::vector<int64_t> ids;
     const List<labelList> place(order(ids));
     const label nPoints = ids.size();
-    scalar bytes = 0;
 
     if (Pstream::master())
     {
@@ -264,9 +263,6 @@ bool Foam::mpm::materialPointHDF5::write()
         history_->setCompression(compressionLevel_);
         history_->setSinglePrecision(singlePrecision_);
 
-        // The last step may be written twice
-        history_->removeFrom(step, mesh_.time().value());
-        bytes = fileSize(history_->path(), false);
         history_->begin(step, mesh_.time().value(), nPoints);
         history_->add("id", ids);
     }
@@ -296,12 +292,9 @@ bool Foam::mpm::materialPointHDF5::write()
 
     if (log)
     {
-        if (Pstream::master())
-        {
-            bytes = fileSize(history_->path(), false) - max(bytes, scalar(0));
-        }
         Info<< type() << ' ' << name() << ": points " << nPoints << " bytes "
-            << bytes << " seconds " << timer.elapsedTime() << endl;
+            << (Pstream::master() ? fileSize(history_->lastPath(), false) : 0)
+            << " seconds " << timer.elapsedTime() << endl;
     }
     return true;
 }

@@ -4,40 +4,47 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "pointHistory.H"
-#include "atomicHDF5Driver.H"
 #include "dictionary.H"
 #include "OSspecific.H"
 #include "Pstream.H"
+#include <hdf5.h>
+#include <hdf5_hl.h>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
+#include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace
 {
 
-//- Of the layout of the file
-const int64_t format = 1;
+//- Of the layout of the files
+const long format = 2;
 
 //- Values of a chunk; each chunk is compressed on its own
 const hsize_t chunkValues = 32768;
 
+//- Digits of the name of a time, so that names sort like times
+const size_t nDigits = 6;
 
-//- Closes an identity of the library at the end of its scope
-class held
+
+//- Closes a handle of the library at the end of its scope
+class handle
 {
     hid_t id_;
     herr_t (*close_)(hid_t);
 
 public:
 
-    held(const hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    ~held() { if (id_ >= 0) close_(id_); }
+    handle(const hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~handle() { if (id_ >= 0) close_(id_); }
 
-    held(const held&) = delete;
-    void operator=(const held&) = delete;
+    handle(const handle&) = delete;
+    void operator=(const handle&) = delete;
 
     operator hid_t() const { return id_; }
     bool ok() const { return id_ >= 0; }
@@ -61,64 +68,6 @@ public:
 };
 
 
-hid_t accessProperties()
-{
-    const hid_t id = H5Pcreate(H5P_FILE_ACCESS);
-    if (id >= 0) Foam::mpm::atomicHDF5Driver::set(id);
-    return id;
-}
-
-
-template<class Type> hid_t memoryType();
-template<> hid_t memoryType<double>() { return H5T_NATIVE_DOUBLE; }
-template<> hid_t memoryType<int64_t>() { return H5T_NATIVE_INT64; }
-
-
-template<class Type>
-bool writeAttribute(const hid_t object, const char* name, const Type value)
-{
-    const held space(H5Screate(H5S_SCALAR), H5Sclose);
-    const held attribute
-    (
-        H5Acreate2
-        (
-            object, name, memoryType<Type>(), space, H5P_DEFAULT, H5P_DEFAULT
-        ),
-        H5Aclose
-    );
-    return attribute.ok()
-        && H5Awrite(attribute, memoryType<Type>(), &value) >= 0;
-}
-
-
-bool writeAttribute
-(
-    const hid_t object,
-    const char* name,
-    const std::string& value
-)
-{
-    const held type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, std::max<size_t>(1, value.size()));
-    const held space(H5Screate(H5S_SCALAR), H5Sclose);
-    const held attribute
-    (
-        H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose
-    );
-    return attribute.ok() && H5Awrite(attribute, type, value.c_str()) >= 0;
-}
-
-
-template<class Type>
-bool readAttribute(const hid_t object, const char* name, Type& value)
-{
-    const held attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-    return attribute.ok()
-        && H5Aread(attribute, memoryType<Type>(), &value) >= 0;
-}
-
-
 //- Names of the members of a group, in the order of the alphabet
 bool members(const hid_t group, std::vector<std::string>& names)
 {
@@ -134,28 +83,131 @@ bool members(const hid_t group, std::vector<std::string>& names)
     ) >= 0;
 }
 
+
+bool isTime(const std::string& name)
+{
+    return
+        name.size() == nDigits
+     && name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+
+//- Bytes by which a file in memory grows
+const size_t growth = 1 << 22;
+
 } // End anonymous namespace
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::mpm::pointHistory::fail(const std::string& message) const
+Foam::fileName Foam::mpm::pointHistory::timePath(const word& group) const
+{
+    return path_.lessExt()/(group + ".h5");
+}
+
+
+std::vector<Foam::word> Foam::mpm::pointHistory::groups() const
+{
+    std::vector<word> found;
+    for (const fileName& name : readDir(path_.lessExt()))
+    {
+        const word group(name.lessExt());
+        if (isTime(group) && name.ext() == "h5") found.push_back(group);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+
+void Foam::mpm::pointHistory::open(const fileName& path)
+{
+    current_ = path;
+    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    check(file_ >= 0, "open");
+}
+
+
+void Foam::mpm::pointHistory::create(const fileName& path)
+{
+    current_ = path;
+    const handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    file_ =
+        H5Pset_fapl_core(access, growth, false) < 0 ? -1
+      : H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    check(file_ >= 0, "create");
+}
+
+
+void Foam::mpm::pointHistory::finish()
+{
+    void* memory = nullptr;
+    hsize_t size = 0;
+    check
+    (
+        H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0
+     && H5Fget_vfd_handle(file_, H5P_DEFAULT, &memory) >= 0
+     && H5Fget_filesize(file_, &size) >= 0,
+        "write to"
+    );
+    replace(current_, *static_cast<char**>(memory), size);
+    close();
+}
+
+
+void Foam::mpm::pointHistory::replace
+(
+    const fileName& path,
+    const char* content,
+    const size_t size
+)
+{
+    mkDir(path.path());
+    const fileName partial(path + ".partial");
+
+    errno = 0;
+    std::ofstream os(partial, std::ios::binary);
+    os.write(content, size);
+    os.close();
+    if (!os || std::rename(partial.c_str(), path.c_str()) != 0)
+    {
+        const std::string reason(std::strerror(errno));
+        std::remove(partial.c_str());
+        current_ = path;
+        check(false, "write to", reason);
+    }
+}
+
+
+void Foam::mpm::pointHistory::close()
+{
+    if (group_ >= 0) H5Gclose(group_);
+    const herr_t error = file_ >= 0 ? H5Fclose(file_) : 0;
+    file_ = group_ = -1;
+    check(error >= 0, "close");
+}
+
+
+void Foam::mpm::pointHistory::fail(const std::string& message)
 {
     // OpenFOAM makes a warning of most errors of a function object and goes on
     // without it; on ranks the others would wait for this one for ever
     if (Pstream::parRun()) FatalIOError.throwExceptions(false);
 
-    FatalIOErrorInFunction(dictionary(path_))
+    FatalIOErrorInFunction(dictionary(current_))
         << message.c_str() << exit(FatalIOError);
 }
 
 
-void Foam::mpm::pointHistory::check(const bool ok, const string& what)
+void Foam::mpm::pointHistory::check
+(
+    const bool ok,
+    const std::string& what,
+    std::string reason
+)
 {
     if (ok) return;
 
     // What the library knows: the innermost reason
-    std::string reason;
     H5Ewalk2
     (
         H5E_DEFAULT, H5E_WALK_UPWARD,
@@ -166,136 +218,106 @@ void Foam::mpm::pointHistory::check(const bool ok, const string& what)
         },
         &reason
     );
-    if (file_ >= 0)
-    {
-        atomicHDF5Driver::abandon(file_);
-        if (group_ >= 0) H5Gclose(group_);
-        H5Fclose(file_);
-        file_ = group_ = -1;
-    }
+    if (group_ >= 0) H5Gclose(group_);
+    if (file_ >= 0) H5Fclose(file_);
+    file_ = group_ = -1;
+
     fail
     (
-        "cannot " + what + ' ' + path_
+        "cannot " + what + ' ' + current_
       + (reason.empty() ? "" : " (" + reason + ')')
-      + ".\n    Is it a file of materialPointHDF5? What it held before is as it"
-        " was."
+      + ".\n    Is it a file of materialPointHDF5? What was written before is as"
+        " it was."
     );
 }
 
 
-void Foam::mpm::pointHistory::open()
+void Foam::mpm::pointHistory::takeApart()
 {
-    const held access(accessProperties(), H5Pclose);
-    file_ = H5Fopen(path_.c_str(), H5F_ACC_RDWR, access);
-    check(file_ >= 0 && atomicHDF5Driver::protect(file_), "open");
-}
-
-
-void Foam::mpm::pointHistory::create()
-{
-    // In one go: a file without its first attributes is none
-    const fileName partial(path_ + ".partial");
-    {
-        const held access(accessProperties(), H5Pclose);
-        file_ = H5Fcreate(partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-        check
-        (
-            file_ >= 0
-         && writeAttribute(file_, "cloud", std::string(cloud_))
-         && writeAttribute(file_, "format", format),
-            "create"
-        );
-        close();
-    }
-    check(std::rename(partial.c_str(), path_.c_str()) == 0, "create");
-}
-
-
-void Foam::mpm::pointHistory::close()
-{
-    const hid_t file = file_;
-    file_ = -1;
-    check(H5Fclose(file) >= 0, "write to");
-
-    const std::string failure(atomicHDF5Driver::failure());
-    if (!failure.empty())
+    current_ = path_ + ".journal";
+    if (isFile(current_, false))
     {
         fail
         (
-            "cannot write to " + path_ + ": " + failure
-          + ".\n    What it held before is as it was."
+            "an earlier version of mpmFoam ended while it wrote to "
+          + path_ + ", and left " + current_.name()
+          + ".\n    Complete it with that version, or remove both"
         );
+    }
+
+    // The file is opened again for each, as create() has only one
+    open(path_);
+    std::vector<std::string> names;
+    check(members(file_, names), "read");
+    close();
+    for (const std::string& name : names)
+    {
+        current_ = path_;
+        const handle old
+        (
+            H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose
+        );
+        check
+        (
+            isTime(name),
+            "read group " + name + " (allowed: six digits) of"
+        );
+        create(timePath(name));
+        check
+        (
+            H5Ocopy
+            (
+                old, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT
+            ) >= 0,
+            "copy group " + name + " of " + path_ + " to"
+        );
+        finish();
     }
 }
 
 
-void Foam::mpm::pointHistory::readTimes()
+Foam::mpm::pointHistory::timeInfo
+Foam::mpm::pointHistory::readTime(const word& name)
 {
-    times_.clear();
+    open(timePath(name));
+    group_ = H5Gopen2(file_, name.c_str(), H5P_DEFAULT);
 
-    int64_t found = 0;
-    std::vector<std::string> groups;
+    long step = 0, nPoints = 0;
+    timeInfo t;
+    t.group = name;
+    std::vector<std::string> fields;
     check
     (
-        readAttribute(file_, "format", found) && found == format
-     && members(file_, groups),
-        "read"
+        group_ >= 0
+     && H5LTget_attribute_double(group_, ".", "time", &t.time) >= 0
+     && H5LTget_attribute_long(group_, ".", "step", &step) >= 0
+     && H5LTget_attribute_long(group_, ".", "nPoints", &nPoints) >= 0
+     && members(group_, fields),
+        "read group " + name + " of"
     );
-    for (const std::string& name : groups)
+    t.step = step;
+    t.nPoints = nPoints;
+    for (const std::string& field : fields)
     {
-        const held group(H5Gopen2(file_, name.c_str(), H5P_DEFAULT), H5Gclose);
-        int64_t step = 0, nPoints = 0;
-        timeInfo t;
-        t.group = name;
-
-        // begin() counts on from it
+        int nDims = 0;
+        hsize_t dims[2] = {0, 1};
+        H5T_class_t kind = H5T_NO_CLASS;
+        size_t bytes = 0;
         check
         (
-            name.size() == 6
-         && name.find_first_not_of("0123456789") == std::string::npos,
-            "read group " + name + " (allowed: six digits) of"
+            H5LTget_dataset_ndims(group_, field.c_str(), &nDims) >= 0
+         && (nDims == 1 || nDims == 2)
+         && H5LTget_dataset_info(group_, field.c_str(), dims, &kind, &bytes)
+         >= 0,
+            "read data set " + name + '/' + field + " of"
         );
-        std::vector<std::string> fields;
-        check
+        t.fields.push_back
         (
-            group.ok()
-         && readAttribute(group, "time", t.time)
-         && readAttribute(group, "step", step)
-         && readAttribute(group, "nPoints", nPoints)
-         && members(group, fields),
-            "read group " + name + " of"
+            fieldInfo{field, label(dims[1]), kind == H5T_INTEGER, label(bytes)}
         );
-        t.step = step;
-        t.nPoints = nPoints;
-        for (const std::string& field : fields)
-        {
-            const held set
-            (
-                H5Dopen2(group, field.c_str(), H5P_DEFAULT), H5Dclose
-            );
-            const held space(H5Dget_space(set), H5Sclose);
-            const held type(H5Dget_type(set), H5Tclose);
-            hsize_t dims[2] = {0, 1};
-            const int nDims = H5Sget_simple_extent_ndims(space);
-            check
-            (
-                (nDims == 1 || nDims == 2)
-             && H5Sget_simple_extent_dims(space, dims, nullptr) >= 0,
-                "read data set " + name + '/' + field + " of"
-            );
-            t.fields.push_back
-            (
-                fieldInfo
-                {
-                    field,
-                    label(nDims == 2 ? dims[1] : 1),
-                    H5Tget_class(type) == H5T_INTEGER,
-                    label(H5Tget_size(type))
-                }
-            );
-        }
-        times_.push_back(t);
     }
+    close();
+    return t;
 }
 
 
@@ -311,8 +333,8 @@ void Foam::mpm::pointHistory::addValues
 
     const hsize_t dims[2] = {hsize_t(t.nPoints), hsize_t(info.nComponents)};
     const int nDims = info.nComponents > 1 ? 2 : 1;
-    const held space(H5Screate_simple(nDims, dims, nullptr), H5Sclose);
-    const held creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const handle space(H5Screate_simple(nDims, dims, nullptr), H5Sclose);
+    const handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
 
     bool ok = space.ok() && creation.ok();
     if (compressionLevel_ > 0 && t.nPoints > 0)
@@ -331,7 +353,7 @@ void Foam::mpm::pointHistory::addValues
         info.integer ? H5T_STD_I64LE
       : info.bytes == 4 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 
-    const held set
+    const handle set
     (
         ok
       ? H5Dcreate2
@@ -350,13 +372,65 @@ void Foam::mpm::pointHistory::addValues
 }
 
 
-void Foam::mpm::pointHistory::writeIndex() const
+bool Foam::mpm::pointHistory::forgetFrom(const label step, const scalar time)
 {
-    const fileName partial(indexPath() + ".partial");
-    std::ofstream os(partial);
+    const auto kept = std::remove_if
+    (
+        times_.begin(), times_.end(),
+        [&](const timeInfo& t) { return t.step >= step || t.time > time; }
+    );
+    const bool any = kept != times_.end();
+    times_.erase(kept, times_.end());
+    return any;
+}
+
+
+void Foam::mpm::pointHistory::writeIndices()
+{
+    writeLinks();
+    writeXdmf();
+
+    // Nothing shows them any more
+    for (const word& group : groups())
+    {
+        if (times_.empty() || group > times_.back().group) rm(timePath(group));
+    }
+}
+
+
+void Foam::mpm::pointHistory::writeLinks()
+{
+    create(path_);
+    check
+    (
+        H5LTset_attribute_string(file_, ".", "cloud", cloud_.c_str()) >= 0
+     && H5LTset_attribute_long(file_, ".", "format", &format, 1) >= 0,
+        "write to"
+    );
+    for (const timeInfo& t : times_)
+    {
+        // From the directory of the file of links
+        const std::string target(path_.lessExt().name()/(t.group + ".h5"));
+        check
+        (
+            H5Lcreate_external
+            (
+                target.c_str(), t.group.c_str(), file_, t.group.c_str(),
+                H5P_DEFAULT, H5P_DEFAULT
+            ) >= 0,
+            "write to"
+        );
+    }
+    finish();
+}
+
+
+void Foam::mpm::pointHistory::writeXdmf()
+{
+    std::ostringstream os;
     os.precision(17);
 
-    const string file(path_.name());
+    const string directory(path_.lessExt().name());
     os  << "<?xml version=\"1.0\" ?>\n"
         << "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
         << "<Xdmf Version=\"2.0\">\n<Domain>\n"
@@ -371,8 +445,8 @@ void Foam::mpm::pointHistory::writeIndex() const
                 << (f.integer ? "Int" : "Float") << "\" Precision=\"" << f.bytes
                 << "\" Dimensions=\"" << t.nPoints;
             if (f.nComponents > 1) os << ' ' << f.nComponents;
-            os  << "\">" << file << ":/" << t.group << '/' << f.name
-                << "</DataItem>";
+            os  << "\">" << directory << '/' << t.group << ".h5:/" << t.group
+                << '/' << f.name << "</DataItem>";
         };
 
         os  << "<Grid Name=\"" << cloud_ << "\" GridType=\"Uniform\">\n"
@@ -412,12 +486,9 @@ void Foam::mpm::pointHistory::writeIndex() const
         os  << "</Grid>\n";
     }
     os  << "</Grid>\n</Domain>\n</Xdmf>\n";
-    os.close();
 
-    if (!os || std::rename(partial.c_str(), indexPath().c_str()) != 0)
-    {
-        fail("cannot write " + indexPath() + "; is the disk full?");
-    }
+    const std::string content(os.str());
+    replace(indexPath(), content.data(), content.size());
 }
 
 
@@ -436,13 +507,24 @@ Foam::mpm::pointHistory::pointHistory
     file_(-1),
     group_(-1)
 {
-    check(atomicHDF5Driver::recover(path_), "complete");
-    if (!isFile(path_, false)) return;
-
     const quiet q;
-    open();
-    readTimes();
-    close();
+    bool old = false;
+    if (isFile(path_, false))
+    {
+        long found = 0;
+        open(path_);
+        check
+        (
+            H5LTget_attribute_long(file_, ".", "format", &found) >= 0
+         && found >= 1 && found <= format,
+            "read"
+        );
+        close();
+        old = found == 1;
+    }
+    if (old) takeApart();
+    for (const word& group : groups()) times_.push_back(readTime(group));
+    if (old) writeIndices();
 }
 
 
@@ -454,40 +536,8 @@ void Foam::mpm::pointHistory::removeFrom
     const scalar time
 )
 {
-    auto late = [&](const timeInfo& t)
-    {
-        return t.step >= step || t.time > time;
-    };
-    if (std::none_of(times_.begin(), times_.end(), late)) return;
-
-    if (std::all_of(times_.begin(), times_.end(), late))
-    {
-        // The library does not use the space of what was deleted again
-        times_.clear();
-        rm(indexPath());
-        check(rm(path_), "remove");
-        return;
-    }
-
     const quiet q;
-    open();
-    std::vector<timeInfo> kept;
-    for (const timeInfo& t : times_)
-    {
-        if (!late(t))
-        {
-            kept.push_back(t);
-            continue;
-        }
-        check
-        (
-            H5Ldelete(file_, t.group.c_str(), H5P_DEFAULT) >= 0,
-            "remove group " + t.group + " of"
-        );
-    }
-    close();
-    times_ = kept;
-    writeIndex();
+    if (forgetFrom(step, time)) writeIndices();
 }
 
 
@@ -499,28 +549,26 @@ void Foam::mpm::pointHistory::begin
 )
 {
     const quiet q;
-    if (!isFile(path_, false))
-    {
-        mkDir(path_.path());
-        create();
-    }
-    open();
+    forgetFrom(step, time);
 
-    // Behind the last one. Six digits, so that names sort like times
-    const label last =
-        times_.empty() ? -1 : label(std::stol(times_.back().group));
-    check(last < 999999, "add time number 1000000 to");
-    std::string group(std::to_string(1000000 + last + 1).substr(1));
+    const label number = times_.empty() ? 0 : readLabel(times_.back().group) + 1;
+    const std::string digits(std::to_string(number));
+    check(digits.size() <= nDigits, "add time number " + digits + " to");
+    const word group(std::string(nDigits - digits.size(), '0') + digits);
 
+    create(timePath(group));
     group_ =
         H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+
+    const double timeInFile = time;
+    const long stepInFile = step, nPointsInFile = nPoints;
     check
     (
         group_ >= 0
-     && writeAttribute(group_, "time", double(time))
-     && writeAttribute(group_, "step", int64_t(step))
-     && writeAttribute(group_, "nPoints", int64_t(nPoints)),
-        "add a time to"
+     && H5LTset_attribute_double(group_, ".", "time", &timeInFile, 1) >= 0
+     && H5LTset_attribute_long(group_, ".", "step", &stepInFile, 1) >= 0
+     && H5LTset_attribute_long(group_, ".", "nPoints", &nPointsInFile, 1) >= 0,
+        "write to"
     );
     times_.push_back(timeInfo{group, time, step, nPoints, {}});
 }
@@ -555,10 +603,8 @@ void Foam::mpm::pointHistory::add
 void Foam::mpm::pointHistory::end()
 {
     const quiet q;
-    H5Gclose(group_);
-    group_ = -1;
-    close();
-    writeIndex();
+    finish();
+    writeIndices();
 }
 
 // ************************************************************************* //
