@@ -413,16 +413,14 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
             << "    Drag is explicit. Results are not to be trusted." << endl;
     }
 
-    const dictionary dict(subDictOrEmpty(properties, "interaction"));
-    checkKeywords(dict, {"drag"}, strictKeywords);
-
     drag_ = dragModel::New
     (
-        dict,
+        subDictOrEmpty(properties, "interaction"),
         dragModel::medium
         {
             soil.model().d(), water.fluid().mu(), water.fluid().rho0()
-        }
+        },
+        strictKeywords
     );
 
     if (soil.model().rhoS() <= water.fluid().rho0())

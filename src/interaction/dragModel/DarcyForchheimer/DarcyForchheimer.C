@@ -32,8 +32,8 @@ void Foam::mpm::DarcyForchheimer::coefficients
     {
         const scalar ns = solidFraction[i];
         const scalar nw = 1 - ns;
-        a[i] = 150*mu*sqr(ns)/(nw*sqr(d));
-        b[i] = 1.75*rho*ns/d;
+        a[i] = viscous_*mu*sqr(ns)/(nw*sqr(d));
+        b[i] = inertial_*rho*ns/d;
     }
 }
 

@@ -32,8 +32,8 @@ void Foam::mpm::DarcyForchheimerPaper::coefficients
     {
         const scalar ns = solidFraction[i];
         const scalar nw = 1 - ns;
-        a[i] = 150*mu*sqr(ns)/(sqr(nw)*sqr(d));
-        b[i] = 1.75*rho*ns/(nw*d);
+        a[i] = viscous_*mu*sqr(ns)/(sqr(nw)*sqr(d));
+        b[i] = inertial_*rho*ns/(nw*d);
     }
 }
 

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "Gidaspow.H"
+#include "dictionaryEntries.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -14,6 +15,23 @@ namespace mpm
     addToRunTimeSelectionTable(dragModel, Gidaspow, dictionary);
 }
 }
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::Gidaspow::Gidaspow
+(
+    const medium& m,
+    const dictionary& coeffs,
+    const bool strictKeywords
+)
+:
+    Ergun(m, coeffs, strictKeywords, {"denseFraction"}),
+    denseFraction_
+    (
+        readBoundedOrDefault(coeffs, "denseFraction", dimless, 0.2, 0, 1)
+    )
+{}
+
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -33,10 +51,10 @@ void Foam::mpm::Gidaspow::coefficients
         const scalar ns = solidFraction[i];
         const scalar nw = 1 - ns;
 
-        if (ns > denseFraction)
+        if (ns > denseFraction_)
         {
-            a[i] = 150*mu*sqr(ns)/(nw*sqr(d));
-            b[i] = 1.75*rho*ns/d;
+            a[i] = viscous_*mu*sqr(ns)/(nw*sqr(d));
+            b[i] = inertial_*rho*ns/d;
             continue;
         }
         const scalar hindrance = std::pow(nw, -2.65);

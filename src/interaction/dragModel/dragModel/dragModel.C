@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "dragModel.H"
+#include "dictionaryEntries.H"
 #include "listed.H"
 
 namespace Foam
@@ -20,10 +21,12 @@ namespace mpm
 Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
 (
     const dictionary& dict,
-    const medium& m
+    const medium& m,
+    const bool strictKeywords
 )
 {
     const word name(dict.lookupOrDefault<word>("drag", "DarcyForchheimer"));
+    const word coeffs(name + "Coeffs");
 
     auto found = dictionaryConstructorTablePtr_->cfind(name);
     if (!found.found())
@@ -34,7 +37,9 @@ Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
             << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
-    return found()(m);
+    checkKeywords(dict, {"drag", coeffs}, strictKeywords);
+
+    return found()(m, subDictOrEmpty(dict, coeffs), strictKeywords);
 }
 
 // ************************************************************************* //

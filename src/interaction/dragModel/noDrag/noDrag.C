@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "noDrag.H"
+#include "dictionaryEntries.H"
 #include "addToRunTimeSelectionTable.H"
 #include <algorithm>
 
@@ -15,6 +16,21 @@ namespace mpm
     addToRunTimeSelectionTable(dragModel, noDrag, dictionary);
 }
 }
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::noDrag::noDrag
+(
+    const medium& m,
+    const dictionary& coeffs,
+    const bool strictKeywords
+)
+:
+    dragModel(m)
+{
+    checkKeywords(coeffs, {}, strictKeywords);
+}
+
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
