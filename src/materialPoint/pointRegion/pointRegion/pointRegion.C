@@ -4,7 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "listed.H"
-#include "pointRegion.H"
+#include "searchableRegion.H"
 
 namespace Foam
 {
@@ -52,16 +52,18 @@ Foam::autoPtr<Foam::mpm::pointRegion> Foam::mpm::pointRegion::New
 {
     const word name(dict.get<word>("type"));
     auto found = dictionaryConstructorTablePtr_->cfind(name);
+    if (found.found()) return found()(mesh, dict, strictKeywords);
 
-    if (!found.found())
+    wordList names(searchableRegion::types());
+    if (!names.found(name))
     {
+        names.append(dictionaryConstructorTablePtr_->sortedToc());
         FatalIOErrorInFunction(dict)
             << "keyword type: unknown region " << name << nl
-            << "    Valid names: "
-            << listed(dictionaryConstructorTablePtr_->sortedToc())
-            << exit(FatalIOError);
+            << "    Valid names: " << listed(names) << exit(FatalIOError);
     }
-    return found()(mesh, dict, strictKeywords);
+    return
+        autoPtr<pointRegion>(new searchableRegion(mesh, dict, strictKeywords));
 }
 
 // ************************************************************************* //
