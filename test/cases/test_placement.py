@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from caseBuilder import Setup, box, hydrostatic
+from test_badInput import refused, words
 
 
 def placed(case):
@@ -103,6 +104,51 @@ def testSameForEachFormat(tmp_path, figures, shape):
     if shape != "cylinder":
         # The column at 0.1 is the first one that is outside
         figures.equal("points", found["binary"], 37*75)
+
+
+SHAPES = {
+    "sphere": ({"origin": (0.2, 0.21, 0.19), "radius": 0.15},
+               4/3*np.pi*0.15**3),
+    "cone": ({"point1": (0.2, 0.2, 0.05), "radius1": 0.15,
+              "innerRadius1": 0, "point2": (0.2, 0.2, 0.35), "radius2": 0.05,
+              "innerRadius2": 0},
+             np.pi*0.3*(0.15**2 + 0.15*0.05 + 0.05**2)/3),
+    "rotatedBox": ({"span": (0.2, 0.1, 0.1), "origin": (0.15, 0.1, 0.1),
+                    "e1": (1, 1, 0), "e3": (0, 0, 1)}, 0.2*0.1*0.1)}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def testShapesOfOpenFOAM(tmp_path, figures, shape):
+    """Any closed surface of OpenFOAM is a region: its volume"""
+    entries, volume = SHAPES[shape]
+    case = Setup(
+        cells=(20, 20, 20), h=0.02, points=3, energy=False,
+        fluid={"soundSpeed": 10},
+        regions={"drop": {"type": shape, **entries}}).write(tmp_path/"case")
+    _, n = placed(case)
+    figures.atMost("volume of the points over that of the shape: error",
+                   abs(n["drop"]*(0.02/3)**3/volume - 1), 0.03)
+
+
+@pytest.mark.parametrize("entries, expect", [
+    ({"type": "plate", "origin": (0, 0, 0), "span": (0.1, 0.1, 0)},
+     {"keyword": "type", "value": "plate", "allowed": "closed surface"}),
+    ({"type": "ball"}, {"keyword": "type", "value": "ball",
+                        "allowed": words("box", "cylinder", "polygon",
+                                         "sphere")}),
+    ({"type": "sphere", "origin": (0, 0, 0), "radius": -1},
+     {"keyword": "radius", "value": "-1", "allowed": "0 < radius"}),
+    ({"type": "sphere", "origin": (0, 0, 0), "radus": 1},
+     {"keyword": "radus", "allowed": "radius"}),
+    ({"type": "cone", "velocty": (0, 0, 0)},
+     {"keyword": "velocty", "allowed": "velocity"}),
+], ids=["plate", "unknown", "negative", "misspelt", "nearMiss"])
+def testBadShapes(tmp_path, figures, entries, expect):
+    case = Setup(cells=(4, 4, 4), h=0.02, points=2, energy=False,
+                 regions={"drop": entries}).write(tmp_path/"case")
+    case.run("blockMesh")
+    refused(figures, case.run("setMaterialPoints", check=False),
+            {"file": "setMaterialPointsDict", "region": "drop", **expect})
 
 
 @pytest.mark.parametrize("lower, upper, says", [

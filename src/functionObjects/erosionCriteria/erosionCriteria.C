@@ -10,6 +10,7 @@ License
 #include "volFields.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 #include <limits>
 
@@ -19,6 +20,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(erosionCriteria, 0);
     addToRunTimeSelectionTable(functionObject, erosionCriteria, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "erosionCriteria", functionNeeds::WRITE_TIMES
+    );
 }
 }
 

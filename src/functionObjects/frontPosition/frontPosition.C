@@ -7,6 +7,7 @@ License
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
 #include "syncTools.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 #include <limits>
 
@@ -16,6 +17,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(frontPosition, 0);
     addToRunTimeSelectionTable(functionObject, frontPosition, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "frontPosition", functionNeeds::NO_FIELDS
+    );
 }
 }
 

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "massBalance.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -12,6 +13,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(massBalance, 0);
     addToRunTimeSelectionTable(functionObject, massBalance, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "massBalance", functionNeeds::NO_FIELDS
+    );
 }
 }
 
@@ -32,8 +38,11 @@ Foam::stringList Foam::mpm::massBalance::description() const
 
 Foam::wordList Foam::mpm::massBalance::columns() const
 {
-    const inflowOutflow* open = cloud().openBoundaries();
-    if (!open) return wordList({"inside", "insideMass", "left", "leftMass"});
+    const inflowOutflow* boundaries = cloud().openBoundaries();
+    if (!boundaries)
+    {
+        return wordList({"inside", "insideMass", "left", "leftMass"});
+    }
 
     DynamicList<word> names;
     auto add = [&](const word& name)
@@ -48,8 +57,8 @@ Foam::wordList Foam::mpm::massBalance::columns() const
     add("left");
     add("elsewhere");
     add("imbalance");
-    for (const inlet& in : open->inlets()) add(in.name() + "Entered");
-    for (const outlet& out : open->outlets()) add(out.name() + "Left");
+    for (const inlet& in : boundaries->inlets()) add(in.name() + "Entered");
+    for (const outlet& out : boundaries->outlets()) add(out.name() + "Left");
     return wordList(names);
 }
 
@@ -63,8 +72,8 @@ Foam::scalarList Foam::mpm::massBalance::values() const
         numbers.append(account.mass.value());
     };
 
-    const inflowOutflow* open = cloud().openBoundaries();
-    if (!open)
+    const inflowOutflow* boundaries = cloud().openBoundaries();
+    if (!boundaries)
     {
         add(cloud().inside().global());
         add(cloud().counts().left.global());
@@ -80,8 +89,8 @@ Foam::scalarList Foam::mpm::massBalance::values() const
     add(b.elsewhere);
     numbers.append(scalar(b.imbalance()));
     numbers.append(b.massImbalance());
-    for (const inlet& in : open->inlets()) add(in.entered().global());
-    for (const outlet& out : open->outlets()) add(out.left().global());
+    for (const inlet& in : boundaries->inlets()) add(in.entered().global());
+    for (const outlet& out : boundaries->outlets()) add(out.left().global());
     return scalarList(numbers);
 }
 

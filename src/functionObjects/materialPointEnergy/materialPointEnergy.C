@@ -5,6 +5,7 @@ License
 
 #include "materialPointEnergy.H"
 #include "gravityMeshObject.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -13,6 +14,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(materialPointEnergy, 0);
     addToRunTimeSelectionTable(functionObject, materialPointEnergy, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "materialPointEnergy", functionNeeds::NO_FIELDS, true
+    );
 }
 }
 

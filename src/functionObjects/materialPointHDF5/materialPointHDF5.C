@@ -13,6 +13,7 @@ License
 #include "IPstream.H"
 #include "OPstream.H"
 #include "PstreamReduceOps.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 #include <cmath>
 
@@ -22,6 +23,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(materialPointHDF5, 0);
     addToRunTimeSelectionTable(functionObject, materialPointHDF5, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "materialPointHDF5", functionNeeds::NO_FIELDS
+    );
 }
 }
 

@@ -140,15 +140,14 @@ void Foam::mpm::pointHistory::create(const fileName& path)
 
 void Foam::mpm::pointHistory::finish()
 {
+    // The memory is larger than the image of the file
     void* memory = nullptr;
-    hsize_t size = 0;
-    check
-    (
+    ssize_t size = -1;
+    const bool ok =
         H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0
      && H5Fget_vfd_handle(file_, H5P_DEFAULT, &memory) >= 0
-     && H5Fget_filesize(file_, &size) >= 0,
-        "write to"
-    );
+     && (size = H5Fget_file_image(file_, nullptr, 0)) > 0;
+    check(ok, "write to");
     replace(current_, *static_cast<char**>(memory), size);
     close();
 }

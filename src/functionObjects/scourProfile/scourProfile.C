@@ -6,6 +6,7 @@ License
 #include "scourProfile.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 #include <limits>
 
@@ -15,6 +16,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(scourProfile, 0);
     addToRunTimeSelectionTable(functionObject, scourProfile, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "scourProfile", functionNeeds::WRITE_TIMES
+    );
 }
 }
 

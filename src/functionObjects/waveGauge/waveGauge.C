@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waveGauge.H"
+#include "functionNeeds.H"
 #include "addToRunTimeSelectionTable.H"
 
 namespace Foam
@@ -12,6 +13,11 @@ namespace mpm
 {
     defineTypeNameAndDebug(waveGauge, 0);
     addToRunTimeSelectionTable(functionObject, waveGauge, dictionary);
+
+    static const functionNeeds::add needs
+    (
+        "waveGauge", functionNeeds::NO_FIELDS
+    );
 }
 }
 

@@ -8,6 +8,7 @@ License
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "waterSoilInteraction.H"
+#include "functionNeeds.H"
 #include "dictionaryEntries.H"
 #include "uniformDimensionedFields.H"
 #include "PstreamReduceOps.H"
@@ -55,22 +56,24 @@ void Foam::mpm::materialPointSystem::readSettings()
     }
 
     settings_.energyBalance.clear();
-    for (const entry& e : subDictOrEmpty(time_.controlDict(), "functions"))
-    {
-        if
-        (
-            e.isDict()
-         && e.dict().lookupOrDefault<word>("type", word::null)
-         == "materialPointEnergy"
-         && e.dict().lookupOrDefault<Switch>("enabled", true)
-        )
+    functionNeeds::forAllFunctions
+    (
+        time_,
+        [&](const dictionary& dict, const functionNeeds& needs)
         {
-            settings_.energyBalance.append
+            if
             (
-                e.dict().lookupOrDefault<word>("cloud", word::null)
-            );
+                needs.energyBalance
+             && dict.lookupOrDefault<Switch>("enabled", true)
+            )
+            {
+                settings_.energyBalance.append
+                (
+                    dict.lookupOrDefault<word>("cloud", word::null)
+                );
+            }
         }
-    }
+    );
 
     checkKeywords
     (
@@ -363,34 +366,20 @@ void Foam::mpm::materialPointSystem::makeClouds()
 
 void Foam::mpm::materialPointSystem::findFieldControls()
 {
-    // Function objects that work on the points themselves
-    const wordHashSet onPoints
-    ({
-        "materialPointEnergy", "frontPosition", "waveGauge", "massBalance",
-        "materialPointHDF5", "vtkCloud", "dataCloud", "cloudInfo",
-        "timeActivatedFileUpdate", "runTimeControl", "abort"
-    });
-
-    // ... and those that look at fields only when they write
-    const wordHashSet onWrite
-    ({
-        "probes", "patchProbes", "sets", "surfaces", "scourProfile",
-        "erosionCriteria"
-    });
-
-    for (const entry& e : subDictOrEmpty(time_.controlDict(), "functions"))
-    {
-        if (!e.isDict()) continue;
-        const dictionary& dict = e.dict();
-        const word type(dict.lookupOrDefault<word>("type", word::null));
-        if (onPoints.found(type)) continue;
-
-        fieldControls_.append(new timeControl(time_, dict, "write"));
-        if (!onWrite.found(type))
+    functionNeeds::forAllFunctions
+    (
+        time_,
+        [&](const dictionary& dict, const functionNeeds& needs)
         {
-            fieldControls_.append(new timeControl(time_, dict, "execute"));
+            if (needs.fields == functionNeeds::NO_FIELDS) return;
+
+            fieldControls_.append(new timeControl(time_, dict, "write"));
+            if (needs.fields == functionNeeds::ANY_TIME)
+            {
+                fieldControls_.append(new timeControl(time_, dict, "execute"));
+            }
         }
-    }
+    );
 }
 
 

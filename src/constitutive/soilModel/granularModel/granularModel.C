@@ -199,10 +199,10 @@ void Foam::mpm::granularModel::elasticCompression
     for (label i = 0; i < points.n; ++i)
     {
         const scalar e = points.voidRatio[i];
-        const scalar open = points.state[CONTACT_VOID_RATIO][i];
-        if (open > 0)
+        const scalar contact = points.state[CONTACT_VOID_RATIO][i];
+        if (contact > 0)
         {
-            compression[i] = -std::log((1 + e)/(1 + open));
+            compression[i] = -std::log((1 + e)/(1 + contact));
         }
         else
         {

@@ -467,34 +467,34 @@ void Foam::mpm::granularModel::advance
         scalar where = separated;
         bool flows = true;
 
-        const scalar open = contactVoidRatio[i];
+        const scalar contact = contactVoidRatio[i];
         bool carries = false;
-        if (open > 0 && e >= open)
+        if (contact > 0 && e >= contact)
         {
             // Void ratio grows without end while nothing holds the point
             // together; where the grid shows more grains, it is right
             if (points.solidFraction)
             {
                 e = min(e, 1/max(points.solidFraction[i], SMALL) - 1);
-                e = max(e, open);
+                e = max(e, contact);
             }
         }
         else if (e <= suspendedVoidRatio_)
         {
             granularStep step;
             step.plasticStrain = plasticStrain[i];
-            if (open > 0)
+            if (contact > 0)
             {
                 // Closes in this step; strain counts from there
                 const scalar part = min
                 (
                     scalar(1),
-                    std::log((1 + open)/(1 + e))
+                    std::log((1 + contact)/(1 + e))
                    /max(-block.trace[j]*deltaT, VSMALL)
                 );
                 for (int c = 0; c < n; ++c) block.s[c][j] = 0;
                 block.p[j] = pRes_;
-                block.e0[j] = open;
+                block.e0[j] = contact;
                 step.plasticStrain = 0;
                 trial<dim, L, false>(j, part*deltaT, block);
                 model.findStrength(j, block, strengths);

@@ -133,12 +133,12 @@ void Foam::mpm::bedLoadModel::velocity
     const label dim = bed_.nDim;
     const scalar perStress = 1/(bed_.weight()*bed_.d);
 
-    scalar shields[batch], critical[batch], q[batch];
-    nodeVector direction[batch];
+    scalar shields[blockSize], critical[blockSize], q[blockSize];
+    nodeVector direction[blockSize];
 
-    for (label begin = 0; begin < n; begin += batch)
+    for (label begin = 0; begin < n; begin += blockSize)
     {
-        const label size = min(n - begin, batch);
+        const label size = min(n - begin, blockSize);
         for (label i = 0; i < size; ++i)
         {
             const label p = begin + i;

@@ -26,7 +26,6 @@ Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
 )
 {
     const word name(dict.lookupOrDefault<word>("drag", "DarcyForchheimer"));
-    const word coeffs(name + "Coeffs");
 
     auto found = dictionaryConstructorTablePtr_->cfind(name);
     if (!found.found())
@@ -37,9 +36,15 @@ Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
             << listed(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
     }
-    checkKeywords(dict, {"drag", coeffs}, strictKeywords);
+    // Those of other models may stay where one is tried after the other
+    wordList known({"drag"});
+    for (const word& model : dictionaryConstructorTablePtr_->sortedToc())
+    {
+        known.append(model + "Coeffs");
+    }
+    checkKeywords(dict, known, strictKeywords);
 
-    return found()(m, subDictOrEmpty(dict, coeffs), strictKeywords);
+    return found()(m, subDictOrEmpty(dict, name + "Coeffs"), strictKeywords);
 }
 
 // ************************************************************************* //

@@ -164,6 +164,10 @@ Foam::mpm::searchableRegion::searchableRegion
         checked
     );
     checkClosed();
+
+    // Some of OpenFOAM's have corners, but no bounds
+    bounds_ = surface_->bounds();
+    if (bounds_.empty()) bounds_ = boundBox(surface_->points(), false);
 }
 
 
@@ -180,12 +184,6 @@ bool Foam::mpm::searchableRegion::contains(const point& x, const label) const
     position_[0] = x;
     surface_->getVolumeType(position_, side_);
     return side_[0] == volumeType::INSIDE;
-}
-
-
-Foam::boundBox Foam::mpm::searchableRegion::bounds() const
-{
-    return surface_->bounds();
 }
 
 // ************************************************************************* //
