@@ -229,7 +229,58 @@ void checkShape()
     atMost(name + ": sum of cellIntegral - 1", std::abs(total - 1), 1e-15);
 }
 
+
+//- Volume of a node at x = 0, over its own, in water with n points per cell
+//  that ends at the height top
+template<class Shape>
+scalar saturationBelow(const scalar top, const label n)
+{
+    scalar sum = 0;
+    for (label j = 0; j < 8*n; ++j)
+    {
+        sum += definition(Shape(), top - (j + 0.5)/n)/n;
+    }
+    return sum;
+}
+
+
+//- What a plane surface takes from the volume of the node below it is never
+//  more than surfaceDefect says, and about that at its most
+template<class Shape>
+void checkSurfaceDefect()
+{
+    const string name(Shape::name);
+    scalar beyond = -GREAT, most = 0;
+    for (label n = 1; n <= 4; ++n)
+    {
+        for (label i = 0; i < 3000; ++i)
+        {
+            const scalar top = 0.001*i;
+            const scalar s = saturationBelow<Shape>(top - 1, n);
+            if (s <= 0.55) continue;
+
+            const scalar defect = 1 - saturationBelow<Shape>(top, n);
+            beyond = std::max(beyond, defect - surfaceDefect<Shape>(s));
+            most = std::max(most, defect);
+        }
+    }
+    atMost(name + ": defect beyond surfaceDefect", beyond, 1e-15);
+    atMost
+    (
+        name + ": surfaceDefect at 0.55 over the most that is lacking",
+        surfaceDefect<Shape>(0.55), 1.12*most + 1e-15
+    );
+}
+
 } // End anonymous namespace
+
+
+TEST_CASE("shape functions: a plane surface")
+{
+    checkSurfaceDefect<linear>();
+    checkSurfaceDefect<quadraticBSpline>();
+    checkSurfaceDefect<cubicBSpline>();
+}
 
 
 TEST_CASE("shape functions: linear")

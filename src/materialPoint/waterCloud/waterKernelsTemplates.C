@@ -110,13 +110,9 @@ class waterKernelsFor
         );
     }
 
-    //- Mean saturation at and around a node inside the water. Under a plane
-    //  surface it is reached where the nodes beyond have 0.75, and this one
-    //  0.1 % less than all: a surface is no error
-    static constexpr scalar insideMean = 0.9165;
-
     //- How much the volume at each node is off, into the scalar slot of the
-    //  velocity: inside the water any error, elsewhere only an excess
+    //  velocity: inside the water any error but what a plane surface nearby
+    //  explains, elsewhere only an excess
     void volumeErrors()
     {
         waterCloud& c = cloud_;
@@ -128,26 +124,18 @@ class waterKernelsFor
         (
             [&](const label i, const std::vector<label>& neighbours)
             {
-                bool inside =
-                    S[i] > waterCloud::insideSaturation && neighbours.size();
-                if (inside)
+                scalar least = neighbours.size() ? S[i] : 0;
+                for (const label n : neighbours)
                 {
-                    scalar sum = S[i];
-                    label n = 1;
-                    for (const label offset : neighbours)
-                    {
-                        const label j = i + offset;
-                        // Nodes behind walls have no control volume
-                        if (inverseVolume[j] == 0) continue;
-
-                        inside =
-                            inside && S[j] > waterCloud::insideSaturation;
-                        sum += S[j];
-                        ++n;
-                    }
-                    inside = inside && sum > insideMean*n;
+                    // Nodes behind walls have no control volume
+                    if (inverseVolume[i + n] > 0) least = min(least, S[i + n]);
                 }
-                velocity[i][dim] = inside ? S[i] - 1 : max(0.0, S[i] - 1.1);
+                velocity[i][dim] =
+                    least <= waterCloud::insideSaturation
+                  ? max(0.0, S[i] - waterCloud::outsideSaturation)
+                  : S[i] >= 1
+                  ? S[i] - 1
+                  : min(0.0, S[i] - 1 + surfaceDefect<Shape>(least));
             }
         );
 
