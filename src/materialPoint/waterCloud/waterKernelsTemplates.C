@@ -124,11 +124,15 @@ class waterKernelsFor
         (
             [&](const label i, const std::vector<label>& neighbours)
             {
+                // Nodes behind walls have no control volume
                 scalar least = neighbours.size() ? S[i] : 0;
-                for (const label n : neighbours)
+                if (least > waterCloud::insideSaturation)
                 {
-                    // Nodes behind walls have no control volume
-                    if (inverseVolume[i + n] > 0) least = min(least, S[i + n]);
+                    for (const label n : neighbours)
+                    {
+                        const scalar s = S[i + n];
+                        if (s < least && inverseVolume[i + n] > 0) least = s;
+                    }
                 }
                 velocity[i][dim] =
                     least <= waterCloud::insideSaturation
