@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "listed.H"
+#include "effectsTable.H"
 #include "materialPointSystem.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
@@ -640,14 +641,6 @@ Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
 
 void Foam::mpm::materialPointSystem::reportEffects() const
 {
-    auto row = [](const string& a, const string& b, const string& c)
-    {
-        std::ostringstream os;
-        os << "    " << std::left << std::setw(26) << a
-           << std::setw(5) << b << c;
-        Info<< os.str().c_str() << nl;
-    };
-
     const lattice& cells = grid_.cells();
     OStringStream spacing;
     for (label d = 0; d < cells.nDim(); ++d)
@@ -661,43 +654,33 @@ void Foam::mpm::materialPointSystem::reportEffects() const
         << "D, " << grid_.shapeFunction() << nl << nl
         << "Effects" << nl;
 
-    for (const materialPointCloud& cloud : clouds_)
-    {
-        DynamicList<FixedList<string, 3>> table;
-        cloud.effects(table);
-        for (const auto& effect : table) row(effect[0], effect[1], effect[2]);
-    }
-    if (interaction_.valid())
-    {
-        DynamicList<FixedList<string, 3>> table;
-        interaction_->effects(table);
-        for (const auto& effect : table) row(effect[0], effect[1], effect[2]);
-    }
-    else
-    {
-        row("coupling", "off", "one cloud");
-    }
-    row
+    effectsTable table;
+    for (const materialPointCloud& cloud : clouds_) cloud.effects(table);
+    if (interaction_.valid()) interaction_->effects(table);
+    else table.add("coupling", false, "one cloud");
+    table.add
     (
-        "body forces",
-        forced_ ? "on" : "off",
+        "body forces", forced_,
         forced_ ? "beside gravity of constant/g" : "gravity alone"
     );
-    row
+    table.add
     (
-        "relaxation",
-        settings_.relaxationDamping > 0 ? "on" : "off",
+        "relaxation", settings_.relaxationDamping > 0,
         settings_.relaxationDamping > 0
       ? "until " + Foam::name(settings_.relaxationUntil) + " s"
-      : "fvSolution/MPM/relaxation"
+      : string("fvSolution/MPM/relaxation")
     );
-    row
+    table.add
     (
         "time step",
-        time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
-      ? "auto" : "set",
+        string
+        (
+            time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
+          ? "auto" : "set"
+        ),
         "maxCo " + Foam::name(maxCo_)
     );
+    table.print(Info);
 
     Info<< nl << "Memory" << nl;
     for (const materialPointCloud& cloud : clouds_)

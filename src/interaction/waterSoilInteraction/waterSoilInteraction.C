@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waterSoilInteraction.H"
+#include "effectsTable.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "dictionaryEntries.H"
@@ -717,37 +718,23 @@ void Foam::mpm::waterSoilInteraction::moveSurface(const scalar deltaT)
 }
 
 
-void Foam::mpm::waterSoilInteraction::effects
-(
-    List<FixedList<string, 3>>& table
-) const
+void Foam::mpm::waterSoilInteraction::effects(effectsTable& table) const
 {
-    table.append
+    table.add
     (
-        FixedList<string, 3>
-        ({
-            "coupling", "on",
-            divergenceForm_
-          ? "pressure in divergence form: for comparison only"
-          : "pressure in gradient form"
-        })
+        "coupling", true,
+        divergenceForm_
+      ? "pressure in divergence form: for comparison only"
+      : "pressure in gradient form"
     );
-    table.append
+    table.add("  drag", drag_->active(), drag_->type());
+    table.add
     (
-        FixedList<string, 3>
-        ({"  drag", drag_->active() ? "on" : "off", drag_->type()})
-    );
-    table.append
-    (
-        FixedList<string, 3>
-        ({
-            "  bed load",
-            bedLoad_.valid() ? "on" : "off",
-            bedLoad_.valid()
-          ? bedLoad_->type() + ", stress averaged over "
-          + Foam::name(bedLoad_->averagingTime()) + " s"
-          : "soil/bedLoad"
-        })
+        "  bed load", bedLoad_.valid(),
+        bedLoad_.valid()
+      ? bedLoad_->type() + ", stress averaged over "
+      + Foam::name(bedLoad_->averagingTime()) + " s"
+      : string("soil/bedLoad")
     );
 }
 

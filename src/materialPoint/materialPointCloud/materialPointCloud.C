@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "materialPointCloud.H"
+#include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
@@ -778,20 +779,10 @@ void Foam::mpm::materialPointCloud::setInflow(const scalar before)
 }
 
 
-void Foam::mpm::materialPointCloud::openEffects
-(
-    List<FixedList<string, 3>>& table
-) const
+void Foam::mpm::materialPointCloud::openEffects(effectsTable& table) const
 {
     if (open_.valid()) open_->effects(table);
-    else
-    {
-        table.append
-        (
-            FixedList<string, 3>
-            ({"  open boundaries", "off", "no inflowOutflow"})
-        );
-    }
+    else table.add("  open boundaries", false, "no inflowOutflow");
 }
 
 

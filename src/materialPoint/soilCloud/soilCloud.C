@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "soilCloud.H"
+#include "effectsTable.H"
 #include "waterCloud.H"
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
@@ -514,28 +515,21 @@ void Foam::mpm::soilCloud::writeState(dictionary& dict) const
 }
 
 
-void Foam::mpm::soilCloud::effects(List<FixedList<string, 3>>& table) const
+void Foam::mpm::soilCloud::effects(effectsTable& table) const
 {
-    auto add = [&](const string& effect, const bool on, const string& why)
-    {
-        table.append
-        (
-            FixedList<string, 3>({effect, on ? "on" : "off", why})
-        );
-    };
-    add("cloud " + name(), true, Foam::name(globalSize()) + " points");
-    add("  transfer", true, transfer_->description());
-    add("  skeleton stress", true, model_->type());
-    add
+    table.add("cloud " + name(), true, Foam::name(globalSize()) + " points");
+    table.add("  transfer", true, transfer_->description());
+    table.add("  skeleton stress", true, model_->type());
+    table.add
     (
         "  pressure smoothing", compression_ >= 0, "fvSolution/MPM/smoothing"
     );
-    add
+    table.add
     (
         "  wall friction", !nodes_.ghostMomentum.empty(),
         "patch type frictional"
     );
-    add
+    table.add
     (
         "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,
         "fvSolution/MPM/maxSoilSoundSpeed"

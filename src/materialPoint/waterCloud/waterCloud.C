@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waterCloud.H"
+#include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
@@ -579,42 +580,35 @@ void Foam::mpm::waterCloud::writeState(dictionary& dict) const
 }
 
 
-void Foam::mpm::waterCloud::effects(List<FixedList<string, 3>>& table) const
+void Foam::mpm::waterCloud::effects(effectsTable& table) const
 {
-    auto add = [&](const string& effect, const bool on, const string& why)
-    {
-        table.append
-        (
-            FixedList<string, 3>({effect, on ? "on" : "off", why})
-        );
-    };
-    add("cloud " + name(), true, Foam::name(globalSize()) + " points");
-    add("  transfer", true, transfer_->description());
-    add
+    table.add("cloud " + name(), true, Foam::name(globalSize()) + " points");
+    table.add("  transfer", true, transfer_->description());
+    table.add
     (
         "  viscous stress", fluid_.viscous(),
         "mu = " + Foam::name(fluid_.mu()) + " Pa s"
     );
-    add
+    table.add
     (
         "  pressure smoothing", settings_.smoothing,
         "fvSolution/MPM/smoothing"
     );
-    add
+    table.add
     (
         "  volume correction", settings_.volumeCorrection,
         "fvSolution/MPM/volumeCorrection"
     );
     if (settings_.coupled)
     {
-        add
+        table.add
         (
             "  overlap correction",
             settings_.volumeCorrection && settings_.overlapCorrection,
             "fvSolution/MPM/overlapCorrection"
         );
     }
-    add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
+    table.add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
     openEffects(table);
 }
 

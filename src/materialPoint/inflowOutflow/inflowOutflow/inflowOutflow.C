@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "inflowOutflow.H"
+#include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "volFields.H"
 
@@ -456,26 +457,16 @@ void Foam::mpm::inflowOutflow::write(dictionary& dict) const
 }
 
 
-void Foam::mpm::inflowOutflow::effects
-(
-    List<FixedList<string, 3>>& table
-) const
+void Foam::mpm::inflowOutflow::effects(effectsTable& table) const
 {
-    auto add = [&](const string& effect, const bool on, const string& why)
-    {
-        table.append
-        (
-            FixedList<string, 3>({effect, on ? "on" : "off", why})
-        );
-    };
-    add
+    table.add
     (
         "  open boundaries", true,
         recycle() ? "points are recycled" : "memory of points that left is kept"
     );
     for (const inlet& in : inlets_)
     {
-        add
+        table.add
         (
             "    inlet " + in.name(), true,
             Foam::name(label(in.places().size())) + " points in a layer of "
@@ -484,7 +475,7 @@ void Foam::mpm::inflowOutflow::effects
     }
     for (const outlet& out : outlets_)
     {
-        add("    outlet " + out.name(), true, out.description());
+        table.add("    outlet " + out.name(), true, out.description());
     }
 }
 
