@@ -196,12 +196,15 @@ Foam::mpm::soilCloud::soilCloud
     {
         nodes_.ghostMomentum.assign(grid.nNodes(), nodeVector{});
     }
+    const word& shape = grid.shapeFunction();
     selectTransfer
     (
-        grid.shapeFunction() == linear::name ? "FLIP" : "APIC",
-        apicRate*fallRate()
+        shape == linear::name ? "FLIP" : "APIC", apicRate*fallRate()
     );
-    kernels_ = newSoilKernels(*this, transfer_->affine());
+    kernels_ =
+        shape == linear::name ? newSoilKernels<linear>(*this)
+      : shape == cubicBSpline::name ? newSoilKernels<cubicBSpline>(*this)
+      : newSoilKernels<quadraticBSpline>(*this);
 }
 
 

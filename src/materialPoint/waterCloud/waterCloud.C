@@ -29,17 +29,11 @@ void Foam::mpm::waterCloud::select()
 
     selectTransfer("APIC", settings_.coupled ? coupledApicRate : apicRate);
 
-    kernels_ = newWaterKernels
-    (
-        *this,
-        waterVariant
-        {
-            grid_.nDim(),
-            transfer_->affine(),
-            fluid_.viscous(),
-            settings_.smoothing
-        }
-    );
+    const word& shape = grid_.shapeFunction();
+    kernels_ =
+        shape == linear::name ? newWaterKernels<linear>(*this)
+      : shape == cubicBSpline::name ? newWaterKernels<cubicBSpline>(*this)
+      : newWaterKernels<quadraticBSpline>(*this);
 }
 
 

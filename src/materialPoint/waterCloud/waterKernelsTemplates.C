@@ -13,13 +13,13 @@ namespace Foam
 namespace mpm
 {
 
-template<class Shape, int dim, bool affine, bool viscous, bool smoothing>
+template<class Shape, int dim>
 class waterKernelsFor
 :
-    public cloudKernelsFor<Shape, dim, affine>
+    public cloudKernelsFor<Shape, dim>
 {
-    typedef cloudKernelsFor<Shape, dim, affine> base;
-    typedef waterMaterial<dim, viscous, smoothing> material;
+    typedef cloudKernelsFor<Shape, dim> base;
+    typedef waterMaterial<dim> material;
 
     using base::kernels_;
     using base::volume;
@@ -56,7 +56,9 @@ class waterKernelsFor
         };
         for (int d = 0; d < dim; ++d)
         {
-            m.gradJ[d] = smoothing ? c.points_.column(c.gradJ_ + d) : nullptr;
+            m.gradJ[d] =
+                c.settings_.smoothing
+              ? c.points_.column(c.gradJ_ + d) : nullptr;
             m.gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
             m.reach[d] = 0.5*Shape::width*c.grid_.cells().spacing(d);
         }
@@ -304,6 +306,7 @@ public:
     virtual void updateNodes(const scalar deltaT)
     {
         waterCloud& c = cloud_;
+        const bool smoothing = c.settings_.smoothing;
 
         c.cost_.start("water: nodes");
         this->accelerate
@@ -311,7 +314,7 @@ public:
             deltaT,
             [&](const label i, nodeVector& v)
             {
-                if constexpr (smoothing) v[dim] = meanVolumeRatio(i);
+                if (smoothing) v[dim] = meanVolumeRatio(i);
             }
         );
         if (c.energyBalance_)
@@ -390,45 +393,14 @@ public:
 
 
 template<class Shape>
-autoPtr<cloudKernels> newWaterKernels
-(
-    waterCloud& cloud,
-    const waterVariant& v
-)
+autoPtr<cloudKernels> newWaterKernels(waterCloud& cloud)
 {
-    // Run-time flags to template arguments, one at a time
-    auto choose = [&](const auto dim, const auto affine, const auto viscous)
-    {
-        constexpr int nDim = decltype(dim)::value;
-        constexpr bool a = decltype(affine)::value;
-        constexpr bool mu = decltype(viscous)::value;
+    cloudKernels* kernels;
+    const bool plane = cloud.grid().nDim() == 2;
+    if (plane) kernels = new waterKernelsFor<Shape, 2>(cloud);
+    else kernels = new waterKernelsFor<Shape, 3>(cloud);
 
-        cloudKernels* kernels;
-        if (v.smoothing)
-        {
-            kernels = new waterKernelsFor<Shape, nDim, a, mu, true>(cloud);
-        }
-        else
-        {
-            kernels = new waterKernelsFor<Shape, nDim, a, mu, false>(cloud);
-        }
-        return autoPtr<cloudKernels>(kernels);
-    };
-    auto chooseViscous = [&](const auto dim, const auto affine)
-    {
-        return v.viscous
-          ? choose(dim, affine, std::true_type())
-          : choose(dim, affine, std::false_type());
-    };
-    auto chooseAffine = [&](const auto dim)
-    {
-        return v.affine
-          ? chooseViscous(dim, std::true_type())
-          : chooseViscous(dim, std::false_type());
-    };
-    return v.nDim == 2
-      ? chooseAffine(std::integral_constant<int, 2>())
-      : chooseAffine(std::integral_constant<int, 3>());
+    return autoPtr<cloudKernels>(kernels);
 }
 
 } // End namespace mpm

@@ -16,12 +16,12 @@ namespace Foam
 namespace mpm
 {
 
-template<class Shape, int dim, bool affine>
+template<class Shape, int dim>
 class soilKernelsFor
 :
-    public cloudKernelsFor<Shape, dim, affine>
+    public cloudKernelsFor<Shape, dim>
 {
-    typedef cloudKernelsFor<Shape, dim, affine> base;
+    typedef cloudKernelsFor<Shape, dim> base;
     typedef soilMaterial<dim> material;
 
     using base::kernels_;
@@ -140,14 +140,22 @@ class soilKernelsFor
         nodeField<nodeVector>& weight = suspended_.force;
         this->forActiveNodes([&](const label i) { weight[i] = nodeVector{}; });
 
-        suspendedWeight<dim> m
-        {
-            c.points_.column(c.mass_), c.points_.column(c.regime_), {}
-        };
+        const scalar* mass = c.points_.column(c.mass_);
+        const scalar* regime = c.points_.column(c.regime_);
+        scalar gravity[dim];
         for (int d = 0; d < dim; ++d)
         {
-            m.gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
+            gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
         }
+        auto ofSuspended = [&](const label p, lanes (&force)[dim])
+        {
+            const lanes zero{};
+            const lanes m =
+                loadLanes(regime + p) == allLanes(soilModel::suspended)
+              ? loadLanes(mass + p)
+              : zero;
+            for (int d = 0; d < dim; ++d) force[d] = m*gravity[d];
+        };
 
         const label n = c.size();
         const label* tile = c.points_.tile();
@@ -158,13 +166,12 @@ class soilKernelsFor
             label end = begin;
             for (; end < n && tile[end] == tile[begin]; ++end)
             {
-                any = any || m.regime[end] == soilModel::suspended;
+                any = any || regime[end] == soilModel::suspended;
             }
             if (any && frictionTiles_[tile[begin]])
             {
                 view.n = end;
-                kernels_.forcesToGrid
-                    (view, begin, m, suspended_, nullptr, nullptr);
+                kernels_.vectorsToGrid(view, begin, ofSuspended, weight);
             }
             begin = end;
         }
@@ -429,43 +436,18 @@ public:
 };
 
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-template<class Shape, int dim>
-static cloudKernels* newSoilKernels(soilCloud& cloud, const bool affine)
-{
-    if (affine) return new soilKernelsFor<Shape, dim, true>(cloud);
-    return new soilKernelsFor<Shape, dim, false>(cloud);
-}
-
 template<class Shape>
-static cloudKernels* newSoilKernels(soilCloud& cloud, const bool affine)
+autoPtr<cloudKernels> newSoilKernels(soilCloud& cloud)
 {
-    return cloud.grid().nDim() == 2
-      ? newSoilKernels<Shape, 2>(cloud, affine)
-      : newSoilKernels<Shape, 3>(cloud, affine);
+    cloudKernels* kernels;
+    const bool plane = cloud.grid().nDim() == 2;
+    if (plane) kernels = new soilKernelsFor<Shape, 2>(cloud);
+    else kernels = new soilKernelsFor<Shape, 3>(cloud);
+
+    return autoPtr<cloudKernels>(kernels);
 }
 
 } // End namespace mpm
 } // End namespace Foam
-
-// * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
-
-Foam::autoPtr<Foam::mpm::cloudKernels> Foam::mpm::newSoilKernels
-(
-    soilCloud& cloud,
-    const bool affine
-)
-{
-    const word& shape = cloud.grid().shapeFunction();
-
-    cloudKernels* kernels =
-        shape == linear::name ? newSoilKernels<linear>(cloud, affine)
-      : shape == cubicBSpline::name
-      ? newSoilKernels<cubicBSpline>(cloud, affine)
-      : newSoilKernels<quadraticBSpline>(cloud, affine);
-
-    return autoPtr<cloudKernels>(kernels);
-}
 
 // ************************************************************************* //

@@ -3,17 +3,23 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 
 Description
-    Water kernels with the shape function linear; a file of its own so that
-    the variants compile side by side.
+    Kernels of all clouds with the shape function linear; a file of
+    its own so that the shape functions compile side by side.
 \*---------------------------------------------------------------------------*/
 
 #include "waterKernelsTemplates.C"
+#include "soilKernelsTemplates.C"
 
-template Foam::autoPtr<Foam::mpm::cloudKernels>
-Foam::mpm::newWaterKernels<Foam::mpm::linear>
-(
-    waterCloud&,
-    const waterVariant&
-);
+namespace Foam
+{
+namespace mpm
+{
+    template autoPtr<cloudKernels>
+    newWaterKernels<linear>(waterCloud&);
+
+    template autoPtr<cloudKernels>
+    newSoilKernels<linear>(soilCloud&);
+}
+}
 
 // ************************************************************************* //
