@@ -79,11 +79,11 @@ void step(mpm::materialPointSystem& points, Time& runTime, stepCost& cost)
         last = now;
     };
 
-    points.setDeltaT(runTime);
-    ++runTime;
-    lap(stepCost::setDeltaT);
     points.particlesToGrid();
     lap(stepCost::p2g);
+    points.setDeltaT(runTime);
+    points.advance(runTime);
+    lap(stepCost::setDeltaT);
     points.updateStress();
     lap(stepCost::stress);
     points.updateNodes();
@@ -91,7 +91,7 @@ void step(mpm::materialPointSystem& points, Time& runTime, stepCost& cost)
     points.gridToParticles();
     lap(stepCost::g2p);
     points.relocate();
-    points.checkFinite(runTime);
+    points.endStep(runTime);
     lap(stepCost::relocate);
 
     cost.total += last - begin;

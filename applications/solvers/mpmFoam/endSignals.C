@@ -5,7 +5,6 @@ License
 
 #include "endSignals.H"
 #include "Pstream.H"
-#include "PstreamReduceOps.H"
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -139,18 +138,22 @@ Foam::mpm::endSignals::endSignals()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::string Foam::mpm::endSignals::received() const
+Foam::label Foam::mpm::endSignals::own() const
 {
-    label what = caught;
     if (Pstream::parRun() && getppid() != launcher_)
     {
         note(caught);
-        what = launcherGone;
+        return launcherGone;
     }
-    reduce(what, maxOp<label>());
-    if (what) forgive();
+    return caught;
+}
 
-    switch (what)
+
+Foam::string Foam::mpm::endSignals::reason(const label largest) const
+{
+    if (largest) forgive();
+
+    switch (largest)
     {
         case 0:
         {

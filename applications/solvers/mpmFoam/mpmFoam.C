@@ -67,6 +67,13 @@ int main(int argc, char *argv[])
     points.reportEffects();
 
     const mpm::endSignals signals;
+    scalar signal = 0;
+    points.limits().addMaximum
+    (
+        mpm::stepLimits::end,
+        [&]() { return scalar(signals.own()); },
+        signal
+    );
 
     points.startDeltaT(runTime);
 
@@ -85,9 +92,9 @@ int main(int argc, char *argv[])
         points.gridToParticles();
         points.relocate();
 
-        points.checkFinite(runTime);
+        points.endStep(runTime);
 
-        const string reason(signals.received());
+        const string reason(signals.reason(label(signal)));
         if (!reason.empty())
         {
             points.stop(runTime, reason);

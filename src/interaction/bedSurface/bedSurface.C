@@ -298,14 +298,18 @@ void Foam::mpm::bedSurface::update
             area_[i][dim] = thickness > 0 ? weight_[i]/thickness : 0;
         }
     );
-    reduce(sumDrag, sumOp<scalar>());
-    reduce(sumResistance, sumOp<scalar>());
-    reduce(sumArea, sumOp<scalar>());
+    // Together: each reduction waits for all ranks
+    scalarField sums(3 + dim);
+    sums[0] = sumDrag;
+    sums[1] = sumResistance;
+    sums[2] = sumArea;
+    for (label d = 0; d < dim; ++d) sums[3 + d] = sumForce[d];
+    reduce(sums, sumOp<scalarField>());
+    sumDrag = sums[0];
+    sumResistance = sums[1];
+    sumArea = sums[2];
     scalar sumSqr = 0;
-    for (label d = 0; d < dim; ++d)
-    {
-        sumSqr += sqr(returnReduce(scalar(sumForce[d]), sumOp<scalar>()));
-    }
+    for (label d = 0; d < dim; ++d) sumSqr += sqr(sums[3 + d]);
     meanStress_ = sumArea > 0 ? std::sqrt(sumSqr)/sumArea : 0;
 
     // Not bounded at each step: what is noise cancels in the points' mean

@@ -109,8 +109,10 @@ void Foam::mpm::materialPointSystem::readSettings()
 
     const dictionary& coDict =
         control_.found("maxCo") ? control_ : time_.controlDict();
-    maxCo_ =
-        readBoundedOrDefault(coDict, "maxCo", dimless, 0.5, 0, stableCo);
+    maxCo_ = readBoundedOrDefault
+    (
+        coDict, "maxCo", dimless, 0.5, 0, stepLimits::stableCo
+    );
     if (maxCo_ > 0.7)
     {
         IOWarningInFunction(coDict)
@@ -505,54 +507,43 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime()
 }
 
 
-Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT(word& limiter)
+void Foam::mpm::materialPointSystem::addLimits()
 {
-    const scalar h = grid_.cells().minSpacing();
-    scalar limit = GREAT;
-    limiter = "none";
-    flowSpeed_ = 0;
+    limits_.reset(new stepLimits(maxCo_));
+    for (materialPointCloud& cloud : clouds_) cloud.addLimits(*limits_);
 
-    forAll(clouds_, i)
-    {
-        materialPointCloud& cloud = clouds_[i];
-        scalar wave = cloud.maxWaveSpeed();
-        scalar speed = cloud.maxSpeed();
-        reduce(wave, maxOp<scalar>());
-        cloud.setGlobalWaveSpeed(wave);
-        reduce(speed, maxOp<scalar>());
-
-        signalSpeed_[i] = wave + speed;
-        flowSpeed_ = max(flowSpeed_, speed);
-
-        if (h/signalSpeed_[i] < limit)
+    limits_->addMaximum
+    (
+        stepLimits::end,
+        [this]()
         {
-            limit = h/signalSpeed_[i];
-            limiter = speed > wave ? "advection" : cloud.waveName();
-        }
-
-        // What meets may be as stiff at the end of the step as an impact makes
-        // it; only then the step comes near the limit of stability
-        const scalar impact =
-            cloud.impactDeltaT(wave, max(maxCo_, stableCo))/maxCo_;
-        if (impact < limit)
-        {
-            limit = impact;
-            limiter = "impact";
-        }
-
-        // Explicit diffusion of momentum; maxCo applies to waves only
-        const scalar nu = cloud.viscosity();
-        if (nu > 0)
-        {
-            const scalar diffusion = sqr(h)/(2*grid_.nDim()*nu)/maxCo_;
-            if (diffusion < limit)
+            nonFinite_.clear();
+            for (const materialPointCloud& cloud : clouds_)
             {
-                limit = diffusion;
-                limiter = "viscosity";
+                if (nonFinite_.empty()) nonFinite_ = cloud.firstNonFinite();
             }
-        }
+            return scalar(!nonFinite_.empty());
+        },
+        anyNonFinite_
+    );
+}
+
+
+Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT()
+{
+    // No step was made yet
+    limits_->reduceFirst(stepLimits::end);
+    limits_->reduce(stepLimits::start);
+
+    flowSpeed_ = 0;
+    signalSpeed_ = 0;
+    for (const materialPointCloud& cloud : clouds_)
+    {
+        const scalar speed = cloud.globalMaxSpeed();
+        flowSpeed_ = max(flowSpeed_, speed);
+        signalSpeed_ = max(signalSpeed_, cloud.waveSpeed() + speed);
     }
-    return limit;
+    return limits_->smallest(limiter_);
 }
 
 
@@ -581,6 +572,8 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     relaxed_(false),
     limiter_("none"),
     flowSpeed_(0),
+    signalSpeed_(0),
+    anyNonFinite_(0),
     firstStep_(0),
     pointSteps_(0),
     maxPoints_(0),
@@ -596,7 +589,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     findFieldControls();
     findWriteIntervals();
     writeTimes_.setSize(writeIntervals_.size(), -GREAT);
-    signalSpeed_.setSize(clouds_.size(), 0);
+    addLimits();
     record_.addMesh(grid_.cells());
 }
 
@@ -737,7 +730,7 @@ void Foam::mpm::materialPointSystem::startDeltaT(Time& runTime) const
 void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
 {
     cost_.start("time step");
-    const scalar limit = limitDeltaT(limiter_);
+    const scalar limit = limitDeltaT();
     cost_.stop();
 
     if (runTime.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false))
@@ -777,7 +770,7 @@ void Foam::mpm::materialPointSystem::setDeltaT(Time& runTime)
     {
         limiter_ = "deltaT";
         const scalar Co = runTime.deltaTValue()/limit;
-        if (Co > stableCo)
+        if (Co > stepLimits::stableCo)
         {
             FatalIOErrorInFunction(runTime.controlDict())
                 << "keyword deltaT is " << runTime.deltaTValue()
@@ -878,19 +871,16 @@ void Foam::mpm::materialPointSystem::relocate()
 }
 
 
-void Foam::mpm::materialPointSystem::checkFinite(Time& runTime)
+void Foam::mpm::materialPointSystem::endStep(Time& runTime)
 {
     cost_.start("time step");
-    string found;
-    for (const materialPointCloud& cloud : clouds_)
-    {
-        if (found.empty()) found = cloud.firstNonFinite();
-    }
-    const bool any = returnReduce(!found.empty(), orOp<bool>());
+    limits_->reduce(stepLimits::end);
     cost_.stop();
 
-    if (any)
+    if (anyNonFinite_ > 0)
     {
+        string found(nonFinite_);
+
         // Velocities spread over the nodes to both clouds in one step; a state
         // that is not finite is nearer to the cause
         string state(soil_ ? soil_->nonFiniteState() : string());
@@ -959,21 +949,19 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
 
     Info<< "Time = " << runTime.timeName() << nl << nl
         << "Courant Number mean: " << flowSpeed_*deltaT/h
-        << " max: " << max(signalSpeed_)*deltaT/h << nl
+        << " max: " << signalSpeed_*deltaT/h << nl
         << "deltaT = " << deltaT << " limiter: " << limiter_
         << " step: " << step << nl;
 
     for (const materialPointCloud& cloud : clouds_)
     {
-        scalar speed = cloud.maxSpeed();
-        reduce(speed, maxOp<scalar>());
         const int64_t contacts =
             returnReduce(cloud.counts().wallContacts, sumOp<int64_t>());
         const int64_t left =
             returnReduce(cloud.counts().left.n, sumOp<int64_t>());
 
         Info<< cloud.name() << ": points " << cloud.globalSize()
-            << ", max speed " << speed << " m/s";
+            << ", max speed " << cloud.globalMaxSpeed() << " m/s";
         if (left) Info<< ", left through openings " << left;
         if (contacts) Info<< ", put back from walls " << contacts;
         Info<< nl;
@@ -1049,7 +1037,7 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         // of yielding to it, and throws it back
         const scalar cap = settings_.maxSoilSoundSpeed;
         const scalar most = cap/3;
-        const scalar fastest = returnReduce(soil_->maxSpeed(), maxOp<scalar>());
+        const scalar fastest = soil_->globalMaxSpeed();
         if (fastest > most)
         {
             const scalar nFaster =

@@ -93,4 +93,37 @@ Foam::mpm::closedBasins::closedBasins
     keep(closed);
 }
 
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalarList Foam::mpm::closedBasins::excess(const scalarList& sums)
+{
+    const label n = nNodes_.size();
+    scalarList result(n, Zero);
+    boolList kept(n);
+    for (label basin = 0; basin < n; ++basin)
+    {
+        const scalar* sum = sums.cdata() + 3*basin;
+        if (mag(sum[2] - nNodes_[basin]) < 0.5)
+        {
+            result[basin] = (sum[0] - sum[1])/sum[0];
+        }
+        kept[basin] = sum[0] > nearlyFull*sum[1];
+    }
+
+    // Nothing enters or leaves: what is half full stays so
+    if (!chosen_)
+    {
+        chosen_ = true;
+        keep(kept);
+        label next = 0;
+        for (label basin = 0; basin < n; ++basin)
+        {
+            if (kept[basin]) result[next++] = result[basin];
+        }
+        result.setSize(next);
+    }
+    return result;
+}
+
 // ************************************************************************* //

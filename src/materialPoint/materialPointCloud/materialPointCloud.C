@@ -334,7 +334,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     order_(grid),
     coupling_(nullptr),
     extremeLeft_(false),
-    globalWaveSpeed_(0),
+    globalMaxSpeed_(0),
     stepCount_(0),
     expectedPoints_(-1)
 {
@@ -804,6 +804,38 @@ void Foam::mpm::materialPointCloud::findMaxSpeed()
         for (label d = 0; d < grid_.nDim(); ++d) sqr += Foam::sqr(v(d)[p]);
         sums_.maxSpeedSqr = max(sums_.maxSpeedSqr, sqr);
     }
+}
+
+
+void Foam::mpm::materialPointCloud::addLimits(stepLimits& limits)
+{
+    const scalar h = grid_.cells().minSpacing();
+
+    limits.addMaximum
+    (
+        stepLimits::end, [this]() { return maxSpeed(); }, globalMaxSpeed_
+    );
+    limits.add
+    (
+        [this]()
+        {
+            return
+                globalMaxSpeed_ > waveSpeed() ? word("advection") : waveName();
+        },
+        [this, h]() { return h/(waveSpeed() + globalMaxSpeed_); }
+    );
+
+    // Explicit diffusion of momentum; maxCo applies to waves only
+    const scalar maxCo = limits.maxCo();
+    limits.add
+    (
+        "viscosity",
+        [this, h, maxCo]()
+        {
+            const scalar nu = viscosity();
+            return nu > 0 ? sqr(h)/(2*grid_.nDim()*nu)/maxCo : GREAT;
+        }
+    );
 }
 
 

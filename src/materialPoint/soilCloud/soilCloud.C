@@ -158,7 +158,7 @@ Foam::mpm::soilCloud::soilCloud
     bedStress_(-1),
     liquid_(nullptr),
     compressionRate_(0),
-    shearRate_(0),
+    shearSqr_(0),
     waveSpeedSqr_(0),
     viscosity_(0),
     minVoidRatio_(GREAT),
@@ -313,13 +313,58 @@ void Foam::mpm::soilCloud::finishPoints()
 }
 
 
-Foam::scalar Foam::mpm::soilCloud::maxWaveSpeed() const
+void Foam::mpm::soilCloud::addLimits(stepLimits& limits)
+{
+    limits.addMaximum
+    (
+        stepLimits::end,
+        [this]() { return waveSpeedSqr_; },
+        global_.waveSpeedSqr
+    );
+    limits.addMaximum
+    (
+        stepLimits::end, [this]() { return viscosity_; }, global_.viscosity
+    );
+    limits.addMinimum
+    (
+        stepLimits::end,
+        [this]() { return minVoidRatio_; },
+        global_.minVoidRatio
+    );
+    limits.addMaximum
+    (
+        stepLimits::start,
+        [this]() { return compressionRate_; },
+        global_.compressionRate
+    );
+    limits.addMaximum
+    (
+        stepLimits::start, [this]() { return shearSqr_; }, global_.shearSqr
+    );
+
+    materialPointCloud::addLimits(limits);
+
+    // What meets may be as stiff at the end of the step as an impact makes it;
+    // only then the step comes near the limit of stability
+    const scalar maxCo = limits.maxCo();
+    limits.add
+    (
+        "impact",
+        [this, maxCo]()
+        {
+            return impactDeltaT(max(maxCo, stepLimits::stableCo))/maxCo;
+        }
+    );
+}
+
+
+Foam::scalar Foam::mpm::soilCloud::waveSpeed() const
 {
     // Undrained, the liquid in the pores stiffens the skeleton. The stiffest
     // and the densest point may be on different ranks: together they limit the
     // step, or it would depend on the decomposition
-    scalar waveSpeedSqr = returnReduce(waveSpeedSqr_, maxOp<scalar>());
-    const scalar voidRatio = returnReduce(minVoidRatio_, minOp<scalar>());
+    scalar waveSpeedSqr = global_.waveSpeedSqr;
+    const scalar voidRatio = global_.minVoidRatio;
     const bool empty = !(voidRatio < GREAT);
 
     // As the nodes have it
@@ -344,7 +389,7 @@ void Foam::mpm::soilCloud::findStrainRates()
     for (label d = 0; d < dim; ++d) toUpperCorner += grid_.stride(d);
 
     compressionRate_ = 0;
-    scalar shearSqr = 0;
+    shearSqr_ = 0;
 
     // By own cells, whose corners are all known: node i is a lower corner of
     // cell i
@@ -376,45 +421,34 @@ void Foam::mpm::soilCloud::findStrainRates()
                     }
                 }
                 compressionRate_ = max(compressionRate_, -tr(L));
-                shearSqr = max(shearSqr, 0.5*magSqr(dev(symm(L))));
+                shearSqr_ = max(shearSqr_, 0.5*magSqr(dev(symm(L))));
             }
         }
     }
-    reduce(compressionRate_, maxOp<scalar>());
-    reduce(shearSqr, maxOp<scalar>());
-    shearRate_ = std::sqrt(shearSqr);
 }
 
 
-Foam::scalar Foam::mpm::soilCloud::impactDeltaT
-(
-    const scalar waveSpeed,
-    const scalar courant
-) const
+Foam::scalar Foam::mpm::soilCloud::impactDeltaT(const scalar courant) const
 {
     const scalar h = courant*grid_.cells().minSpacing();
-
-    // Of all ranks, which take the same step
-    const scalar e =
-        min(returnReduce(minVoidRatio_, minOp<scalar>()), model_->e0());
+    const scalar cSqr = sqr(waveSpeed());
+    const scalar rate = global_.compressionRate;
+    const scalar e = min(global_.minVoidRatio, model_->e0());
 
     auto tooLarge = [&](const scalar deltaT)
     {
         return
             sqr(deltaT)
-           *(
-                sqr(waveSpeed)
-              + model_->waveSpeedSqrGrowth(compressionRate_*deltaT, e)
-            )
+           *(cSqr + model_->waveSpeedSqrGrowth(rate*deltaT, e))
           > sqr(h);
     };
 
     // As large as the flow allows; where that is too large, the root of a
     // growing function, to a thousandth
-    scalar high = h/max(waveSpeed, SMALL);
-    if (compressionRate_*high < SMALL || !tooLarge(high)) return GREAT;
+    scalar high = h/max(waveSpeed(), SMALL);
+    if (rate*high < SMALL || !tooLarge(high)) return GREAT;
 
-    high = min(high, 1/compressionRate_);
+    high = min(high, 1/rate);
     while (tooLarge(high)) high *= 0.5;
 
     scalar low = high;
@@ -428,13 +462,11 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT
 
 Foam::scalar Foam::mpm::soilCloud::viscosity() const
 {
-    // Of all ranks, which take the same step
-    const scalar e =
-        min(returnReduce(minVoidRatio_, minOp<scalar>()), model_->e0());
+    const scalar e = min(global_.minVoidRatio, model_->e0());
     return max
     (
-        returnReduce(viscosity_, maxOp<scalar>()),
-        model_->viscosity(shearRate_, e)
+        global_.viscosity,
+        model_->viscosity(std::sqrt(global_.shearSqr), e)
     );
 }
 

@@ -54,7 +54,7 @@ class soilKernelsFor
             smooth ? c.points_.column(c.compression_) : nullptr,
             smooth ? c.points_.column(c.compressionMean_) : nullptr,
             {},
-            soilCloud::smoothingFraction*c.globalWaveSpeed_
+            soilCloud::smoothingFraction*c.waveSpeed()
            /c.grid_.cells().minSpacing(),
             0,
             &work_

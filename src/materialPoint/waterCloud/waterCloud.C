@@ -110,12 +110,37 @@ Foam::scalar Foam::mpm::waterCloud::volumeRatioAhead
 }
 
 
-void Foam::mpm::waterCloud::correctBasins
-(
-    const scalarList& excess,
-    const scalar most
-)
+Foam::scalarList Foam::mpm::waterCloud::basinSums()
 {
+    if (!basins_.valid()) basins_.reset(new closedBasins(boundary_, U_));
+    if (basins_->empty()) return scalarList();
+
+    const bool plane = grid_.nDim() == 2;
+    return basins_->sums
+    (
+        order_.nodeRanges(),
+        [&](const label i)
+        {
+            return plane ? nodes_.momentum[i][3] : nodes_.volume[i];
+        },
+        coupling_ ? coupling_->inversePoreVolume : boundary_.inverseVolume(),
+        fullBasinSaturation
+    );
+}
+
+
+void Foam::mpm::waterCloud::correctBasins(const scalar deltaT)
+{
+    if (basinSums_.empty()) return;
+
+    const scalarList excess(basins_->excess(basinSums_));
+    bool any = false;
+    for (const scalar e : excess) any = any || e != 0;
+    if (!any) return;
+
+    const scalar most =
+        basinCorrectionRate*fluid_.soundSpeed()*deltaT
+       /grid_.cells().minSpacing();
     scalar* J = points_.column(J_);
     for (label p = 0; p < size(); ++p)
     {
@@ -327,7 +352,8 @@ Foam::mpm::waterCloud::waterCloud
     ),
     stressWork_(0),
     correctionWork_(0),
-    minJ_(1)
+    minJ_(1),
+    globalMinJ_(1)
 {
     if (!fluid_.autoSoundSpeed()) select();
 }
@@ -483,6 +509,35 @@ Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
 
     // Water may come in before there is any, and the last may have left
     return fluid_.soundSpeed(min(minJ_, scalar(1)));
+}
+
+
+void Foam::mpm::waterCloud::addLimits(stepLimits& limits)
+{
+    limits.addMinimum
+    (
+        stepLimits::end, [this]() { return minJ_; }, globalMinJ_
+    );
+    materialPointCloud::addLimits(limits);
+
+    // Through inlets and outlets anything may come and go
+    if (settings_.volumeCorrection && !open_.valid())
+    {
+        limits.addSums
+        (
+            stepLimits::start, [this]() { return basinSums(); }, basinSums_
+        );
+    }
+}
+
+
+Foam::scalar Foam::mpm::waterCloud::waveSpeed() const
+{
+    // The densest is the stiffest
+    return max
+    (
+        maxWaveSpeed(), fluid_.soundSpeed(min(globalMinJ_, scalar(1)))
+    );
 }
 
 

@@ -152,44 +152,6 @@ class waterKernelsFor
         );
     }
 
-    //- Keep the volume of the water in full vessels
-    void correctBasins(const scalar deltaT)
-    {
-        waterCloud& c = cloud_;
-        // Through inlets and outlets anything may come and go
-        if (c.open_.valid()) return;
-
-        if (!c.basins_.valid())
-        {
-            c.basins_.reset(new closedBasins(c.boundary_, c.U_));
-        }
-        if (c.basins_->empty()) return;
-
-        const scalarList excess
-        (
-            c.basins_->excess
-            (
-                c.order_.nodeRanges(),
-                [&](const label i) { return volume(i); },
-                c.coupling_
-              ? c.coupling_->inversePoreVolume
-              : c.boundary_.inverseVolume(),
-                waterCloud::fullBasinSaturation
-            )
-        );
-        bool any = false;
-        for (const scalar e : excess) any = any || e != 0;
-        if (any)
-        {
-            c.correctBasins
-            (
-                excess,
-                waterCloud::basinCorrectionRate*c.fluid_.soundSpeed()*deltaT
-               /c.grid_.cells().minSpacing()
-            );
-        }
-    }
-
     //- Keep the volume ratio of points in zones of open inlets, and give it
     //  back
     void hold()
@@ -265,7 +227,7 @@ public:
         if (c.settings_.volumeCorrection)
         {
             volumeErrors();
-            correctBasins(deltaT);
+            c.correctBasins(deltaT);
         }
 
         c.cost_.start("water: stress and forces");
