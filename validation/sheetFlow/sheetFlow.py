@@ -26,8 +26,8 @@ BED, HEIGHT, COLUMNS = 0.06, 0.18, 8
 
 # Momentum diffusivity of the scheme, for a start near the steady profile; the
 # measured stress does not rest on it [m2/s]
-NU_SCHEME = {0.01: 2.2e-4, 0.005: 7e-5}
-END, FROM = 20, 10                      # of the run and of the mean [s]
+NU_SCHEME = {0.01: 1.4e-4, 0.005: 7e-5}
+END, FROM = 40, 20                      # of the run and of the mean [s]
 
 
 def channel(h, variant="", settings=None):
