@@ -30,11 +30,11 @@ NU_SCHEME = {0.01: 1.4e-4, 0.005: 7e-5}
 END, FROM = 40, 20                      # of the run and of the mean [s]
 
 
-def channel(h, variant="", settings=None):
+def channel(h):
     length, level = COLUMNS*h, BED + DEPTH
     gradient = [0, SHEAR_SPEED**2/NU_SCHEME[h]/2, *[0]*7]
     return study.Run(
-        f"h{h:g}{variant}", [HERE.parent/"incipientMotion"/"case"],
+        f"h{h:g}", [HERE.parent/"incipientMotion"/"case"],
         study.MPMFOAM, {
             "system/blockMeshDict": {
                 "h": h, "nx": COLUMNS, "ny": round(HEIGHT/h),
@@ -65,9 +65,8 @@ def channel(h, variant="", settings=None):
                 "interaction/drag": "Gidaspow"},
             "system/controlDict": {"endTime": END, "writeInterval": 0.5},
             "system/fvSolution": {"MPM/logInterval": 1000,
-                                  "MPM/maxSoilSoundSpeed": 20},
-            **(settings or {})},
-        about={"h": h, "length": length, "variant": variant.strip("_")})
+                                  "MPM/maxSoilSoundSpeed": 20}},
+        about={"h": h, "length": length})
 
 
 RUNS = [channel(0.01), channel(0.005)]
