@@ -154,7 +154,8 @@ def testPatchTypes(kind):
     text = (ROOT/"src/backgroundGrid/nodeBoundary/patchTypes.C").read_text()
     body = re.search(rf"patchTypes::{kind}\s*\(\{{([^}}]*)\}}\)", text)[1]
     for patchType in re.findall(r'"(\w+)"', body):
-        name = "U.soil" if patchType == "frictional" else "U.water"
+        ofSoil = patchType in ("frictional", "constrainedWall")
+        name = "U.soil" if ofSoil else "U.water"
         assert f"type            {patchType};" in explained(name)
 
 

@@ -95,11 +95,11 @@ struct scene
         const label t =
             i - cellI - grid->reachStart()
           + T*(j - cellJ - grid->reachStart());
-        const label s = boundary->stencil(at(cellI, cellJ));
+        const label s = boundary->folding().stencil(at(cellI, cellJ));
         return
-            s < 0 || boundary->targets(s)[t] == at(i, j)
+            s < 0 || boundary->folding().targets(s)[t] == at(i, j)
           ? -1
-          : boundary->ghosts(s)[t];
+          : boundary->folding().ghosts(s)[t];
     }
 
     //- Where the node at (i, j, k) of the lattice folds for points of a cell,
@@ -120,12 +120,13 @@ struct scene
             step *= T;
         }
 
-        const label s = boundary->stencil(at(cell[0], cell[1], cell[2]));
+        const nodeFolding& folding = boundary->folding();
+        const label s = folding.stencil(at(cell[0], cell[1], cell[2]));
         if (s < 0) return "plain";
 
-        const index3 to = grid->coordinate(boundary->targets(s)[t]);
-        const nodeVector sign = boundary->signs(s)[t];
-        const nodeVector shift = boundary->shifts(s)[t];
+        const index3 to = grid->coordinate(folding.targets(s)[t]);
+        const nodeVector sign = folding.signs(s)[t];
+        const nodeVector shift = folding.shifts(s)[t];
 
         std::ostringstream os;
         for (label d = 0; d < grid->nDim(); ++d)
@@ -640,16 +641,18 @@ TEST_CASE("nodeBoundary: tiles fold their nodes as the cells of their points")
             const backgroundGrid& grid = *s.grid;
             const label W = grid.tileWidth();
             const label T = grid.reachWidth();
+            const nodeFolding& folding = s.boundary->folding();
+            const nodeTiles& tiles = s.boundary->tiles();
             const label nParts = grid.nodeCentred() ? 1 << dim : 1;
             label wrong = 0, descents = 0;
 
-            for (label i = 1; i < s.boundary->nTiles(); ++i)
+            for (label i = 1; i < tiles.size(); ++i)
             {
                 label before = 0, here = 0;
                 for (label d = dim - 1; d >= 0; --d)
                 {
-                    before = 100*before + s.boundary->tile(i - 1).origin[d];
-                    here = 100*here + s.boundary->tile(i).origin[d];
+                    before = 100*before + tiles[i - 1].origin[d];
+                    here = 100*here + tiles[i].origin[d];
                 }
                 descents += here < before;
             }
@@ -657,12 +660,12 @@ TEST_CASE("nodeBoundary: tiles fold their nodes as the cells of their points")
             forAll(grid.mesh().cellCentres(), celli)
             {
                 const label cell = grid.boxCell(celli);
-                const label own = s.boundary->stencil(cell);
+                const label own = folding.stencil(cell);
 
                 for (label part = 0; part < nParts; ++part)
                 {
-                    const nodeBoundary::tileRecord& tile =
-                        s.boundary->tile(s.boundary->tileOf(cell, part));
+                    const nodeTiles::record& tile =
+                        tiles[tiles.of(cell, part)];
 
                     for (label t = 0; t < W*W*(dim == 3 ? W : 1); ++t)
                     {
@@ -687,14 +690,14 @@ TEST_CASE("nodeBoundary: tiles fold their nodes as the cells of their points")
                         label target = node, foundTarget = plain;
                         if (own >= 0)
                         {
-                            target = s.boundary->targets(own)[inCell];
-                            sign = s.boundary->signs(own)[inCell];
+                            target = folding.targets(own)[inCell];
+                            sign = folding.signs(own)[inCell];
                         }
                         if (tile.stencil >= 0)
                         {
                             foundTarget =
-                                s.boundary->targets(tile.stencil)[inTile];
-                            found = s.boundary->signs(tile.stencil)[inTile];
+                                folding.targets(tile.stencil)[inTile];
+                            found = folding.signs(tile.stencil)[inTile];
                         }
                         wrong += node != plain || target != foundTarget;
                         for (label c = 0; c < 4; ++c)
@@ -715,7 +718,7 @@ TEST_CASE("nodeBoundary: tiles fold their nodes as the cells of their points")
     const scene s(stepPlan());
     auto tileOf = [&](const int i, const int j, const label part)
     {
-        return s.boundary->tileOf(s.at(i, j), part);
+        return s.boundary->tiles().of(s.at(i, j), part);
     };
     equal("corner: left and across", label(tileOf(3, 2, 3) == tileOf(3, 3, 1)), 0);
     equal("corner: above and across", label(tileOf(4, 3, 0) == tileOf(3, 3, 1)), 0);

@@ -70,7 +70,7 @@ void Foam::mpm::backgroundGrid::buildBox()
     }
     for (label celli = 0; celli < nCells; ++celli)
     {
-        const index3& i = lattice_.cellIndex(celli);
+        const index3& i = lattice_->cellIndex(celli);
         for (label d = 0; d < 3; ++d)
         {
             lower_[d] = min(lower_[d], i[d]);
@@ -91,7 +91,7 @@ void Foam::mpm::backgroundGrid::buildBox()
     boxCell_.setSize(nCells);
     for (label celli = 0; celli < nCells; ++celli)
     {
-        index3 i = lattice_.cellIndex(celli);
+        index3 i = lattice_->cellIndex(celli);
         for (label d = 0; d < 3; ++d) i[d] -= lower_[d];
         boxCell_[celli] = index(i);
         meshCell_[boxCell_[celli]] = celli;
@@ -120,14 +120,14 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
             DynamicList<index3> inside;
             for (label celli = 0; celli < mesh().nCells(); ++celli)
             {
-                const index3& i = lattice_.cellIndex(celli);
+                const index3& i = lattice_->cellIndex(celli);
                 bool in = true;
                 for (label d = 0; d < nDim(); ++d)
                 {
                     const label j = i[d] - boxes[rank].first()[d];
                     in = in
                      && (
-                            lattice_.periodic(d)
+                            lattice_->periodic(d)
                          || (j >= 0 && j < boxes[rank].second()[d])
                         );
                 }
@@ -146,7 +146,7 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
     else
     {
         cells[0].setSize(mesh().nCells());
-        forAll(cells[0], celli) cells[0][celli] = lattice_.cellIndex(celli);
+        forAll(cells[0], celli) cells[0][celli] = lattice_->cellIndex(celli);
     }
 
     // Each cell marks all of its periodic images that lie in the box
@@ -158,8 +158,8 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
             for (label d = 0; d < 3; ++d)
             {
                 // Few cells may repeat more than once within the margin
-                const label n = lattice_.nCells(d);
-                const bool wrap = d < nDim() && lattice_.periodic(d);
+                const label n = lattice_->nCells(d);
+                const bool wrap = d < nDim() && lattice_->periodic(d);
                 last[d] = wrap ? (margin + n - 1)/n : 0;
                 first[d] = -last[d];
             }
@@ -172,7 +172,7 @@ void Foam::mpm::backgroundGrid::exchangeCellOwners()
                 bool in = true;
                 for (label d = 0; d < 3; ++d)
                 {
-                    i[d] = cell[d] + w[d]*lattice_.nCells(d) - lower_[d];
+                    i[d] = cell[d] + w[d]*lattice_->nCells(d) - lower_[d];
                     in = in && i[d] >= 0 && i[d] < nNodes_[d];
                 }
                 if (in) cellRank_[index(i)] = rank;
@@ -199,7 +199,7 @@ void Foam::mpm::backgroundGrid::checkWallThickness() const
              && cellRank_[c + 2*stride_[d]] != missing
             )
             {
-                index3 i = lattice_.cellIndex(celli);
+                index3 i = lattice_->cellIndex(celli);
                 ++i[d];
                 thin.append(i);
                 direction.append(d);
@@ -281,13 +281,14 @@ void Foam::mpm::backgroundGrid::checkWallThickness() const
         point from(Zero), to(Zero);
         for (label d = 0; d < 3; ++d)
         {
-            const label a = lattice_.axis(d);
-            from[a] = lattice_.origin(d) + w.lower[d]*lattice_.spacing(d);
-            to[a] = lattice_.origin(d) + (w.upper[d] + 1)*lattice_.spacing(d);
+            const label a = lattice_->axis(d);
+            from[a] = lattice_->origin(d) + w.lower[d]*lattice_->spacing(d);
+            to[a] =
+                lattice_->origin(d) + (w.upper[d] + 1)*lattice_->spacing(d);
         }
         FatalError
             << "    thin in direction "
-            << vector::componentNames[lattice_.axis(w.direction)]
+            << vector::componentNames[lattice_->axis(w.direction)]
             << ", from " << from << " to " << to << nl;
     }
     FatalError
@@ -426,7 +427,10 @@ void Foam::mpm::backgroundGrid::buildExchange()
     DynamicList<label> nodes;
     DynamicList<int64_t> ids;
     bool shared = Pstream::parRun();
-    for (label d = 0; d < nDim(); ++d) shared = shared || lattice_.periodic(d);
+    for (label d = 0; d < nDim(); ++d)
+    {
+        shared = shared || lattice_->periodic(d);
+    }
 
     if (shared)
     {
@@ -435,7 +439,7 @@ void Foam::mpm::backgroundGrid::buildExchange()
         int64_t nIds = 1;
         for (label d = 0; d < nDim(); ++d)
         {
-            nIds *= lattice_.nCells(d) + 2*margin + 2;
+            nIds *= lattice_->nCells(d) + 2*margin + 2;
         }
         auto globalId = [&](const label node)
         {
@@ -444,8 +448,8 @@ void Foam::mpm::backgroundGrid::buildExchange()
             for (label d = nDim() - 1; d >= 0; --d)
             {
                 label g = i[d] + lower_[d];
-                const label n = lattice_.nCells(d);
-                if (lattice_.periodic(d)) g = ((g % n) + n) % n;
+                const label n = lattice_->nCells(d);
+                if (lattice_->periodic(d)) g = ((g % n) + n) % n;
                 id = id*(n + 2*margin + 2) + (g + margin);
             }
             return id;
@@ -484,9 +488,24 @@ Foam::mpm::backgroundGrid::backgroundGrid
     const dictionary& mpmDict
 )
 :
-    lattice_(mesh)
+    mesh_(mesh)
 {
     selectShapeFunction(mpmDict);
+    rebuild();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::backgroundGrid::rebuild()
+{
+    meshCell_.clear();
+    cellRank_.clear();
+    twin_.clear();
+    twinOf_.clear();
+    share_.clear();
+
+    lattice_.reset(new lattice(mesh_));
     buildBox();
     exchangeCellOwners();
     checkWallThickness();
@@ -495,18 +514,16 @@ Foam::mpm::backgroundGrid::backgroundGrid
 }
 
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
 Foam::point Foam::mpm::backgroundGrid::nodePosition(const label node) const
 {
     const index3 i = coordinate(node);
     point x(Zero);
     for (label d = 0; d < nDim(); ++d)
     {
-        x[lattice_.axis(d)] =
-            lattice_.origin(d) + (i[d] + lower_[d])*lattice_.spacing(d);
+        x[lattice_->axis(d)] =
+            lattice_->origin(d) + (i[d] + lower_[d])*lattice_->spacing(d);
     }
-    if (nDim() == 2) x[lattice_.axis(2)] = lattice_.midPlane();
+    if (nDim() == 2) x[lattice_->axis(2)] = lattice_->midPlane();
     return x;
 }
 

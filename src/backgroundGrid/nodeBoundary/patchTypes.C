@@ -10,7 +10,7 @@ License
 
 const Foam::wordList Foam::mpm::patchTypes::slip
 ({
-    "slip", "symmetryPlane", "symmetry", "frictional"
+    "slip", "symmetryPlane", "symmetry", "frictional", "constrainedWall"
 });
 const Foam::wordList Foam::mpm::patchTypes::fixed({"noSlip", "fixedValue"});
 const Foam::wordList Foam::mpm::patchTypes::open
@@ -49,7 +49,7 @@ void Foam::mpm::patchTypes::refuse
     FatalIOErrorInFunction(file.subDict("boundaryField").subDict(patch))
         << "patch " << patch << ", keyword type: " << Up.type() << ' '
         << reason.c_str() << '.' << nl << "    Allowed: " << listed(slip)
-        << " (walls that slip; frictional for soil only), "
+        << " (walls that slip, some with friction), "
         << listed(fixed) << " (walls that stick or move), "
         << listed(open) << " (openings), cyclic, empty"
         << exit(FatalIOError);

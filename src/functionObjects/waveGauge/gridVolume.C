@@ -11,7 +11,7 @@ License
 template<class Op>
 void Foam::mpm::gridVolume::forTile(const label cell, const Op& op) const
 {
-    const label stencil = cloud_.boundary().stencil(cell);
+    const label stencil = cloud_.boundary().folding().stencil(cell);
     if (stencil < 0)
     {
         const label first = cell + grid_.reachOffset();
@@ -22,7 +22,7 @@ void Foam::mpm::gridVolume::forTile(const label cell, const Op& op) const
     }
     else
     {
-        const label* target = cloud_.boundary().targets(stencil);
+        const label* target = cloud_.boundary().folding().targets(stencil);
         for (label t = 0; t < grid_.reachSize(); ++t) op(t, target[t]);
     }
 }

@@ -13,9 +13,25 @@ License
 #include "dictionaryEntries.H"
 #include "uniformDimensionedFields.H"
 #include "PstreamReduceOps.H"
+#include "debug.H"
+#include "registerSwitch.H"
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+    //- Debug switch, off. Steps between two rebuilds: they change no number.
+    int rebuildInterval(Foam::debug::debugSwitch("mpmRebuildInterval", 0));
+
+    Foam::RegisterSwitch<int> addRebuildInterval
+    (
+        Foam::debug::addDebugObject, "mpmRebuildInterval", rebuildInterval
+    );
+}
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -579,6 +595,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     maxPoints_(0),
     logThisStep_(true),
     fieldsCurrent_(false),
+    stepsSinceRebuild_(0),
     target_(GREAT),
     stopped_(false)
 {
@@ -808,6 +825,10 @@ void Foam::mpm::materialPointSystem::stop(Time& runTime, const string& reason)
 
 void Foam::mpm::materialPointSystem::particlesToGrid()
 {
+    if (rebuildInterval > 0 && ++stepsSinceRebuild_ > rebuildInterval)
+    {
+        rebuild();
+    }
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
     if (soil_)
     {
@@ -842,7 +863,7 @@ void Foam::mpm::materialPointSystem::updateNodes()
     if (interaction_.valid()) interaction_->applyDrag(deltaT);
 
     // Last, so that nothing moves what friction holds
-    if (soil_) soil_->applyWallFriction(deltaT);
+    for (materialPointCloud& cloud : clouds_) cloud.finishNodes(deltaT);
 }
 
 
@@ -861,6 +882,15 @@ void Foam::mpm::materialPointSystem::gridToParticles()
         }
     }
     if (interaction_.valid()) interaction_->moveSurface(deltaT);
+}
+
+
+void Foam::mpm::materialPointSystem::rebuild()
+{
+    stepsSinceRebuild_ = 1;
+    grid_.rebuild();
+    for (materialPointCloud& cloud : clouds_) cloud.rebuild();
+    if (interaction_.valid()) interaction_->rebuild();
 }
 
 

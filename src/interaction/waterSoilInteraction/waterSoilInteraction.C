@@ -383,6 +383,41 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
 }
 
 
+void Foam::mpm::waterSoilInteraction::makeNodes()
+{
+    fields_ = couplingFields(water_.boundary().inverseVolume());
+    folded_ = water_.boundary().folding().foldedComponents();
+    mixed_.clear();
+    inside_.clear();
+    mean_.clear();
+    touching_.clear();
+
+    water_.couple(fields_, water_.boundary());
+    soil_.couple(fields_, water_.boundary());
+
+    pressureInside_.assign(fields_.saturation.size(), nodeVector{});
+    const label depth = (grid_.nDim() == 3 ? 1 : 0);
+    for (label k = -depth; k <= depth; ++k)
+    for (label j = -1; j <= 1; ++j)
+    for (label i = -1; i <= 1; ++i)
+    {
+        mean_.emplace_back
+        (
+            i + j*grid_.stride(1) + k*grid_.stride(2),
+            1.0/(1 << (mag(i) + mag(j) + mag(k)))
+        );
+    }
+
+    const label W = grid_.tileWidth();
+    for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
+    for (label j = 0; j < W; ++j)
+    for (label i = 0; i < W; ++i)
+    {
+        touching_.push_back(-(i + j*grid_.stride(1) + k*grid_.stride(2)));
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
@@ -404,8 +439,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     fields_(water.boundary().inverseVolume()),
     nPacked_(0),
     bedState_{0, 0},
-    bedStep_(-1),
-    folded_(water.boundary().foldedComponents())
+    bedStep_(-1)
 {
     if (!implicitDrag_)
     {
@@ -436,33 +470,21 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
 
     readBedLoad(properties, strictKeywords);
 
-    water_.couple(fields_, water_.boundary());
-    soil_.couple(fields_, water_.boundary());
-
-    pressureInside_.assign(fields_.saturation.size(), nodeVector{});
-    const label depth = (grid_.nDim() == 3 ? 1 : 0);
-    for (label k = -depth; k <= depth; ++k)
-    for (label j = -1; j <= 1; ++j)
-    for (label i = -1; i <= 1; ++i)
-    {
-        mean_.emplace_back
-        (
-            i + j*grid_.stride(1) + k*grid_.stride(2),
-            1.0/(1 << (mag(i) + mag(j) + mag(k)))
-        );
-    }
-
-    const label W = grid_.tileWidth();
-    for (label k = 0; k < (grid_.nDim() == 3 ? W : 1); ++k)
-    for (label j = 0; j < W; ++j)
-    for (label i = 0; i < W; ++i)
-    {
-        touching_.push_back(-(i + j*grid_.stride(1) + k*grid_.stride(2)));
-    }
+    makeNodes();
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::waterSoilInteraction::rebuild()
+{
+    makeNodes();
+    if (surface_.valid())
+    {
+        surface_.reset(new bedSurface(grid_, fields_, water_.boundary()));
+    }
+}
+
 
 void Foam::mpm::waterSoilInteraction::mixture()
 {

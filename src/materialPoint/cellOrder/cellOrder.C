@@ -10,14 +10,23 @@ License
 
 Foam::mpm::cellOrder::cellOrder(const backgroundGrid& grid)
 :
-    grid_(grid),
-    number_(grid.nBoxNodes(), -1),
-    nodes_(grid.nNodes()),
-    shared_(grid.exchange().sharedNodes())
-{}
+    grid_(grid)
+{
+    clear();
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::cellOrder::clear()
+{
+    cells_.clear();
+    ranges_.clear();
+    number_ = labelList(grid_.nBoxNodes(), -1);
+    nodes_ = bitSet(grid_.nNodes());
+    shared_ = grid_.exchange().sharedNodes();
+}
+
 
 void Foam::mpm::cellOrder::activate(const pointStorage& points)
 {

@@ -9,7 +9,8 @@ License
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
-#include "frictionalFvPatchVectorField.H"
+#include "constrainedWallFvPatchVectorField.H"
+#include "frictionalWall.H"
 #include "patchTypes.H"
 #include "OSspecific.H"
 #include <algorithm>
@@ -85,6 +86,19 @@ void Foam::mpm::materialPointCloud::zeroNodes()
 }
 
 
+void Foam::mpm::materialPointCloud::makeNodes()
+{
+    const label n = grid_.nNodes();
+    nodes_.resize(n, grid_.nDim());
+    if (boundary_.nodeWalls()) nodes_.ghostMomentum.assign(n, nodeVector{});
+    if (energyBalance_) nodes_.oldVelocity.assign(n, nodeVector{});
+    if (transfer_.valid() && transfer_->filtered())
+    {
+        filter_.assign(n, nodeVector{});
+    }
+}
+
+
 void Foam::mpm::materialPointCloud::activate(const bool sort)
 {
     // Nodes that become inactive must be left zero
@@ -136,7 +150,7 @@ void Foam::mpm::materialPointCloud::setCell
         }
     }
     points_.cell()[point] = cell;
-    points_.tile()[point] = boundary_.tileOf(cell, part);
+    points_.tile()[point] = boundary_.tiles().of(cell, part);
 }
 
 
@@ -256,10 +270,7 @@ void Foam::mpm::materialPointCloud::selectTransfer
             << nl << "    Allowed: FLIP, PIC, XPIC, or a B-spline for"
             << " fvSolution/MPM/shapeFunction" << exit(FatalIOError);
     }
-    if (transfer_->filtered())
-    {
-        filter_.assign(grid_.nNodes(), nodeVector{});
-    }
+    if (transfer_->filtered()) makeNodes();
 }
 
 
@@ -348,9 +359,14 @@ Foam::mpm::materialPointCloud::materialPointCloud
 
     for (const fvPatchVectorField& Up : U_.boundaryField())
     {
-        if (!soil && isA<frictionalFvPatchVectorField>(Up))
+        if (!soil && isA<constrainedWallFvPatchVectorField>(Up))
         {
-            patchTypes::refuse(Up, "holds grains, not water");
+            const auto& wall =
+                refCast<const constrainedWallFvPatchVectorField>(Up);
+            if (wall.constraint() == frictionalWall::typeName)
+            {
+                patchTypes::refuse(Up, "holds grains, not water");
+            }
         }
         if (Up.type() == "inletOutlet" && !mesh.foundObject<surfaceScalarField>("phi"))
         {
@@ -369,11 +385,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     // decomposed lagrangian files need the base points of all ranks
     (void)mesh.tetBasePtIs();
 
-    nodes_.resize(grid.nNodes(), grid.nDim());
-    if (energyBalance_)
-    {
-        nodes_.oldVelocity.assign(grid.nNodes(), nodeVector{});
-    }
+    makeNodes();
 }
 
 
@@ -421,6 +433,21 @@ void Foam::mpm::materialPointCloud::finishPoints()
 {
     findMaxSpeed();
     activate(true);
+}
+
+
+void Foam::mpm::materialPointCloud::rebuild()
+{
+    if (open_.valid()) open_->rebuild(g_);
+    boundary_.rebuild(inflowOutflow::zones(open_));
+    if (open_.valid()) open_->giveSpeeds(boundary_);
+
+    order_.clear();
+    makeNodes();
+    makeKernels();
+
+    for (label p = 0; p < size(); ++p) setCell(p, boxCoordinate(p));
+    activate(false);
 }
 
 

@@ -77,6 +77,16 @@ void Foam::mpm::soilCloud::beginSmoothing(const label first, const label last)
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
+void Foam::mpm::soilCloud::makeKernels()
+{
+    const word& shape = grid_.shapeFunction();
+    kernels_ =
+        shape == linear::name ? newSoilKernels<linear>(*this)
+      : shape == cubicBSpline::name ? newSoilKernels<cubicBSpline>(*this)
+      : newSoilKernels<quadraticBSpline>(*this);
+}
+
+
 void Foam::mpm::soilCloud::beginFields(const wordList& names)
 {
     if (names.found("compressionMean")) beginSmoothing(0, size());
@@ -192,19 +202,12 @@ Foam::mpm::soilCloud::soilCloud
     {
         model_->limitWaveSpeed(control.maxSoilSoundSpeed);
     }
-    if (returnReduce(boundary_.frictional(), orOp<bool>()))
-    {
-        nodes_.ghostMomentum.assign(grid.nNodes(), nodeVector{});
-    }
-    const word& shape = grid.shapeFunction();
     selectTransfer
     (
-        shape == linear::name ? "FLIP" : "APIC", apicRate*fallRate()
+        grid.shapeFunction() == linear::name ? "FLIP" : "APIC",
+        apicRate*fallRate()
     );
-    kernels_ =
-        shape == linear::name ? newSoilKernels<linear>(*this)
-      : shape == cubicBSpline::name ? newSoilKernels<cubicBSpline>(*this)
-      : newSoilKernels<quadraticBSpline>(*this);
+    makeKernels();
 }
 
 
@@ -259,20 +262,6 @@ void Foam::mpm::soilCloud::slip
     cost_.start("soil: bed load");
     kernels_->slip(deltaT, stress, normal, law);
     cost_.stop();
-}
-
-
-void Foam::mpm::soilCloud::applyWallFriction(const scalar deltaT)
-{
-    boundary_.applyFriction
-    (
-        nodes_.wallForce,
-        nodes_.wallVelocity,
-        nodes_.ghostMomentum,
-        nodes_.momentum,
-        deltaT,
-        nodes_.velocity
-    );
 }
 
 
@@ -561,7 +550,7 @@ void Foam::mpm::soilCloud::effects(effectsTable& table) const
     );
     table.add
     (
-        "  wall friction", !nodes_.ghostMomentum.empty(),
+        "  wall friction", boundary_.nodeWalls(),
         "patch type frictional"
     );
     table.add

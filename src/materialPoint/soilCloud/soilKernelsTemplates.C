@@ -33,10 +33,10 @@ class soilKernelsFor
     soilCloud& cloud_;
     soilWorkSpace<dim> work_;
 
-    //- Weight of suspended grains near walls with friction, and the tiles
+    //- Weight of suspended grains near walls that they press, and the tiles
     //  that are; empty without such walls or without water
     nodalFields suspended_;
-    std::vector<char> frictionTiles_;
+    std::vector<char> pressedTiles_;
 
 
     material makeMaterial()
@@ -120,22 +120,24 @@ class soilKernelsFor
         return s;
     }
 
-    //- What pushes on walls with friction, without the weight of suspended
-    //  grains: the water carries it. Of grains that no water carries it is
-    //  the force of the wall itself.
+    //- What presses walls, without the weight of suspended grains: the water
+    //  carries it. Of grains that no water carries it is the force of the wall
+    //  itself.
     void releaseSuspended()
     {
         soilCloud& c = cloud_;
 
         // The same on all ranks
-        if (c.nodes_.ghostMomentum.empty() || !c.liquid_ || c.regime_ < 0)
+        if (!c.boundary_.nodeWalls() || !c.liquid_ || c.regime_ < 0)
         {
             return;
         }
-        if (frictionTiles_.empty())
+        if (pressedTiles_.empty())
         {
-            frictionTiles_ = c.boundary_.frictionTiles();
+            pressedTiles_ =
+                c.boundary_.tiles().with(c.boundary_.pressedNodes());
             suspended_.force.assign(c.grid_.nNodes(), nodeVector{});
+            suspended_.saturation.assign(c.grid_.nNodes(), 0);
         }
         nodeField<nodeVector>& weight = suspended_.force;
         this->forActiveNodes([&](const label i) { weight[i] = nodeVector{}; });
@@ -168,7 +170,7 @@ class soilKernelsFor
             {
                 any = any || regime[end] == soilModel::suspended;
             }
-            if (any && frictionTiles_[tile[begin]])
+            if (any && pressedTiles_[tile[begin]])
             {
                 view.n = end;
                 kernels_.vectorsToGrid(view, begin, ofSuspended, weight);
@@ -178,16 +180,15 @@ class soilKernelsFor
         c.grid_.exchange().sum(weight);
 
         const nodeField<nodeVector>& water = c.liquid_->nodes().momentum;
-        c.boundary_.reduceWallForces
+        this->forActiveNodes
         (
-            weight,
-            [&](const label node)
+            [&](const label i)
             {
-                return
-                    water[node][dim] > 0 ? c.coupling_->saturation[node] : 0.0;
-            },
-            c.nodes_.wallForce
+                suspended_.saturation[i] =
+                    water[i][dim] > 0 ? c.coupling_->saturation[i] : 0.0;
+            }
         );
+        c.boundary_.relieve(weight, suspended_.saturation);
     }
 
 public:
@@ -208,7 +209,6 @@ public:
 
         c.cost_.start("soil: nodes");
         this->nodalVelocities();
-        c.boundary_.keepVelocities(c.nodes_.velocity, c.nodes_.wallVelocity);
 
         // The solid fraction that the grid shows, into the scalar slot
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
@@ -278,9 +278,6 @@ public:
             begin = end;
         }
         this->exchangeForces();
-        // Before the pressure of the water adds to the forces: friction is of
-        // the effective stress
-        c.boundary_.findWallForces(c.nodes_.force, c.nodes_.wallForce);
         releaseSuspended();
         this->filter();
         c.cost_.stop();

@@ -28,12 +28,7 @@ void Foam::mpm::waterCloud::select()
         2*fluid_.soundSpeed()/grid_.cells().minSpacing();
 
     selectTransfer("APIC", settings_.coupled ? coupledApicRate : apicRate);
-
-    const word& shape = grid_.shapeFunction();
-    kernels_ =
-        shape == linear::name ? newWaterKernels<linear>(*this)
-      : shape == cubicBSpline::name ? newWaterKernels<cubicBSpline>(*this)
-      : newWaterKernels<quadraticBSpline>(*this);
+    makeKernels();
 }
 
 
@@ -173,7 +168,7 @@ void Foam::mpm::waterCloud::addOutletLoads()
     };
     if (!open_->loadsKnown())
     {
-        open_->setLoads(boundary_, vertical, pressure);
+        open_->setLoads(boundary_.folding(), vertical, pressure);
     }
 
     // Integral over the end of the water = integral over the plane where the
@@ -211,7 +206,7 @@ void Foam::mpm::waterCloud::addOutletLoads()
         }
         const scalar pV =
             pressure(open_->levelOf(cell), x(vertical)[p])*volume(p);
-        const label stencil = boundary_.stencil(cell);
+        const label stencil = boundary_.folding().stencil(cell);
 
         for (label t = 0; t < grid_.reachSize(); ++t)
         {
@@ -226,8 +221,8 @@ void Foam::mpm::waterCloud::addOutletLoads()
             }
             else
             {
-                nodes_.force[boundary_.targets(stencil)[t]] +=
-                    boundary_.signs(stencil)[t]*f;
+                nodes_.force[boundary_.folding().targets(stencil)[t]] +=
+                    boundary_.folding().signs(stencil)[t]*f;
             }
         }
     }
@@ -235,6 +230,16 @@ void Foam::mpm::waterCloud::addOutletLoads()
 
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::waterCloud::makeKernels()
+{
+    const word& shape = grid_.shapeFunction();
+    kernels_ =
+        shape == linear::name ? newWaterKernels<linear>(*this)
+      : shape == cubicBSpline::name ? newWaterKernels<cubicBSpline>(*this)
+      : newWaterKernels<quadraticBSpline>(*this);
+}
+
 
 Foam::scalar Foam::mpm::waterCloud::slowness(const inlet& in) const
 {
@@ -481,6 +486,13 @@ void Foam::mpm::waterCloud::setAtRest(const label p, const vector& gravity)
         points_.column(gradJ_ + d)[p] =
             -compression*gravity[grid_.cells().axis(d)];
     }
+}
+
+
+void Foam::mpm::waterCloud::rebuild()
+{
+    basins_.clear();
+    materialPointCloud::rebuild();
 }
 
 

@@ -146,10 +146,7 @@ class waterKernelsFor
         );
 
         // The gap behind the last layer of an inlet is no error
-        c.boundary_.forInflowNodes
-        (
-            [&](const label i) { velocity[i][dim] = 0; }
-        );
+        for (const label i : c.boundary_.inflowNodes()) velocity[i][dim] = 0;
     }
 
     //- Keep the volume ratio of points in zones of open inlets, and give it

@@ -307,10 +307,16 @@ void Foam::mpm::inflowOutflow::setSpeeds
     nodeBoundary& boundary
 )
 {
+    for (inlet& in : inlets_) in.setSpeed(time);
+    giveSpeeds(boundary);
+}
+
+
+void Foam::mpm::inflowOutflow::giveSpeeds(nodeBoundary& boundary)
+{
     forAll(inlets_, i)
     {
-        inlet& in = inlets_[i];
-        in.setSpeed(time);
+        const inlet& in = inlets_[i];
         boundary.setInflow(i, in.open(), in.velocity());
         for (const label celli : in.zone().meshCells())
         {
@@ -318,6 +324,15 @@ void Foam::mpm::inflowOutflow::setSpeeds
             mark = char(in.open() ? mark | openInlet : mark & ~openInlet);
         }
     }
+}
+
+
+void Foam::mpm::inflowOutflow::rebuild(const vector& g)
+{
+    for (inlet& in : inlets_) in.makeZone(grid_);
+    markCells();
+    makeLevelZones(g);
+    loadsKnown_ = false;
 }
 
 

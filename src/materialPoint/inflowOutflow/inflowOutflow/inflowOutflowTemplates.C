@@ -9,7 +9,7 @@ License
 template<class Pressure>
 void Foam::mpm::inflowOutflow::setLoads
 (
-    const nodeBoundary& boundary,
+    const nodeFolding& folding,
     const label vertical,
     const Pressure& pressure
 )
@@ -43,7 +43,7 @@ void Foam::mpm::inflowOutflow::setLoads
 
             const label celli = patch.faceCells()[i];
             const label cell = grid_.boxCell(celli);
-            const label stencil = boundary.stencil(cell);
+            const label stencil = folding.stencil(cell);
             const scalar area = cells.cellVolume()/cells.spacing(d);
 
             label n[3] = {1, 1, 1};
@@ -87,8 +87,8 @@ void Foam::mpm::inflowOutflow::setLoads
                     }
                     else
                     {
-                        load[boundary.targets(stencil)[t] + shift] +=
-                            boundary.signs(stencil)[t]*f;
+                        load[folding.targets(stencil)[t] + shift] +=
+                            folding.signs(stencil)[t]*f;
                     }
                 }
             }

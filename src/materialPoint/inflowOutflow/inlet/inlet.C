@@ -335,16 +335,9 @@ Foam::mpm::inlet::inlet
 
     const label nPoints =
         readIntegerOrDefault(dict, "pointsPerDirection", 2, 1, 16);
-    const label nCells = readIntegerOrDefault(dict, "zoneCells", 1, 1, 100);
-
-    const scalar lower = up_ > 0 ? base_ : -(base_ + depth_);
-    zone_.reset
-    (
-        new inflowZone
-        (
-            grid, patchi, vertical_, lower, lower + depth_, nCells
-        )
-    );
+    patch_ = patchi;
+    zoneCells_ = readIntegerOrDefault(dict, "zoneCells", 1, 1, 100);
+    makeZone(grid);
     if (zone_->bent() || zone_->faces().empty())
     {
         FatalIOErrorInFunction(dict)
@@ -381,6 +374,19 @@ Foam::mpm::inlet::inlet
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::inlet::makeZone(const backgroundGrid& grid)
+{
+    const scalar lower = up_ > 0 ? base_ : -(base_ + depth_);
+    zone_.reset
+    (
+        new inflowZone
+        (
+            grid, patch_, vertical_, lower, lower + depth_, zoneCells_
+        )
+    );
+}
+
 
 Foam::scalar Foam::mpm::inlet::top
 (
