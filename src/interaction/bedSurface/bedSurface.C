@@ -195,7 +195,7 @@ void Foam::mpm::bedSurface::update
             }
             const scalar part =
                 min(2*near, scalar(1))*max(1 - phi, scalar(0))
-               *water.momentum[i][dim];
+               *water.mass(i);
             for (label d = 0; d < dim; ++d)
             {
                 const scalar grain = grains[d]/max(grains[dim], VSMALL);

@@ -30,24 +30,13 @@ static Foam::RegisterSwitch<int> addImplicitDrag
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::mpm::waterSoilInteraction::volume
-(
-    materialPointCloud& cloud,
-    const label node
-) const
-{
-    const nodalFields& n = cloud.nodes();
-    return grid_.nDim() == 2 ? n.momentum[node][3] : n.volume[node];
-}
-
-
 Foam::scalar Foam::mpm::waterSoilInteraction::solidVolume
 (
     const label node
 ) const
 {
     return
-        soil_.nodes().momentum[node][grid_.nDim()]/soil_.model().rhoS();
+        soil_.nodes().mass(node)/soil_.model().rhoS();
 }
 
 
@@ -56,7 +45,7 @@ Foam::scalar Foam::mpm::waterSoilInteraction::waterVolume
     const label node
 ) const
 {
-    return volume(water_, node);
+    return water_.nodes().cloudVolume(node);
 }
 
 
@@ -78,8 +67,8 @@ void Foam::mpm::waterSoilInteraction::exchangeMomentum
     for (label k = 0; k < n; ++k)
     {
         const label i = nodes_[k];
-        const scalar perWater = 1/water.momentum[i][dim];
-        const scalar perSoil = held ? 0 : 1/soil.momentum[i][dim];
+        const scalar perWater = 1/water.mass(i);
+        const scalar perSoil = held ? 0 : 1/soil.mass(i);
         const scalar factor = deltaT*bulkVolume_[k]*(perWater + perSoil);
         const scalar reduced =
             (1 - keptPart(factor, k))/(perWater + perSoil);
@@ -168,7 +157,6 @@ Foam::scalar Foam::mpm::waterSoilInteraction::liquidVolume
 
 void Foam::mpm::waterSoilInteraction::findInside()
 {
-    const label dim = grid_.nDim();
     const std::vector<scalar>& inverseVolume =
         water_.boundary().inverseVolume();
     // Of a node whose cells are all there
@@ -184,8 +172,8 @@ void Foam::mpm::waterSoilInteraction::findInside()
             if
             (
                 perVolume > 0 && perVolume < whole
-             && soil_.nodes().momentum[i][dim] > 0
-             && water_.nodes().momentum[i][dim] > 0
+             && soil_.nodes().mass(i) > 0
+             && water_.nodes().mass(i) > 0
             )
             {
                 nodeVector& here = pressureInside_[i];
@@ -348,9 +336,9 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
         water_.fluid().rho0(),
         [&](const label i)
         {
-            return soil.momentum[i][dim]*perRhoS*inverseVolume[i];
+            return soil.mass(i)*perRhoS*inverseVolume[i];
         },
-        [&](const label i) { return water.momentum[i][dim] > 0; },
+        [&](const label i) { return water.mass(i) > 0; },
         soil,
         water,
         [&](const auto& set)
@@ -364,7 +352,7 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                 for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
 
                 // Water has what soil has no share of (sharePressure)
-                nodeVector push = water.momentum[i][dim]*gravity;
+                nodeVector push = water.mass(i)*gravity;
                 if (pressureInside_[i][3] > 0)
                 {
                     push +=
@@ -517,9 +505,9 @@ void Foam::mpm::waterSoilInteraction::mixture()
     (
         [&](const label i)
         {
-            const bool wet = water.momentum[i][dim] > 0;
+            const bool wet = water.mass(i) > 0;
 
-            if (!(soil.momentum[i][dim] > 0))
+            if (!(soil.mass(i) > 0))
             {
                 nodeVector flux = water.velocity[i];
                 flux[dim] = 1;
@@ -542,7 +530,7 @@ void Foam::mpm::waterSoilInteraction::mixture()
             const scalar solid = solidVolume(i);
             const scalar liquid = wet ? waterVolume(i) : 0;
             const scalar occupied =
-                min(control, max(volume(soil_, i), solid + liquid));
+                min(control, max(soil.cloudVolume(i), solid + liquid));
 
             scalar ns = solid/occupied;
             if (ns > 1 - minPorosity)
@@ -585,14 +573,12 @@ void Foam::mpm::waterSoilInteraction::keepWaterPressure()
 
     cost_.start("coupling");
 
-    const label dim = grid_.nDim();
-
     grid_.exchange().sum(fields_.pressureForce);
     fields_.forNodes
     (
         [&](const label i)
         {
-            if (water_.nodes().momentum[i][dim] > 0)
+            if (water_.nodes().mass(i) > 0)
             {
                 water_.nodes().force[i] += fields_.pressureForce[i];
             }
@@ -620,7 +606,7 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
         (
             [&](const label i)
             {
-                if (soil.momentum[i][dim] > 0)
+                if (soil.mass(i) > 0)
                 {
                     soil.force[i] += fields_.pressureForce[i];
                 }
@@ -640,9 +626,9 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     (
         [&](const label i)
         {
-            const bool wet = water.momentum[i][dim] > 0;
+            const bool wet = water.mass(i) > 0;
             if (wet) water.force[i] += fields_.pressureForce[i];
-            if (!(soil.momentum[i][dim] > 0)) return;
+            if (!(soil.mass(i) > 0)) return;
 
             const scalar solid = solidVolume(i);
             nodeVector share{};

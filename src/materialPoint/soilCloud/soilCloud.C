@@ -393,13 +393,13 @@ void Foam::mpm::soilCloud::findStrainRates()
             for (const label side : {1, -1})
             {
                 const label i = side > 0 ? cell : cell + toUpperCorner;
-                if (!(nodes_.momentum[i][dim] > 0)) continue;
+                if (!(nodes_.mass(i) > 0)) continue;
 
                 tensor L(Zero);
                 for (label d = 0; d < dim; ++d)
                 {
                     const label j = i + side*grid_.stride(d);
-                    if (!(nodes_.momentum[j][dim] > 0)) continue;
+                    if (!(nodes_.mass(j) > 0)) continue;
 
                     for (label c = 0; c < dim; ++c)
                     {

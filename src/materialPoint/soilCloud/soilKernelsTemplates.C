@@ -210,15 +210,15 @@ public:
         c.cost_.start("soil: nodes");
         this->nodalVelocities();
 
-        // The solid fraction that the grid shows, into the scalar slot
+        // The solid fraction that the grid shows
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
         const scalar inverseRhoS = 1/c.model_->rhoS();
         this->forActiveNodes
         (
             [&](const label i)
             {
-                c.nodes_.velocity[i][dim] =
-                    c.nodes_.momentum[i][dim]*inverseRhoS*inverseVolume[i];
+                c.nodes_.solidFraction(i) =
+                    c.nodes_.mass(i)*inverseRhoS*inverseVolume[i];
             }
         );
         c.cost_.stop();
@@ -295,19 +295,19 @@ public:
             this->accelerate
             (
                 deltaT,
-                [&](const label i, nodeVector& v)
+                [&](const label i)
                 {
-                    const nodalFields& nodes = c.nodes_;
+                    nodalFields& nodes = c.nodes_;
                     const scalar unfolded =
-                        nodes.momentum[i][dim] + nodes.ghostMass[i];
-                    v[dim] =
-                        unfolded > 0 ? nodes.force[i][dim]/unfolded : 0;
+                        nodes.mass(i) + nodes.ghostMass[i];
+                    nodes.smoothed(i) =
+                        unfolded > 0 ? nodes.smoothingSum(i)/unfolded : 0;
                 }
             );
         }
         else
         {
-            this->accelerate(deltaT, [](const label, nodeVector&) {});
+            this->accelerate(deltaT, [](const label) {});
         }
         if (c.model_->held())
         {
@@ -425,7 +425,7 @@ public:
         (
             [&](const label i)
             {
-                return c.nodes_.momentum[i][dim]*inverseRhoS;
+                return c.nodes_.mass(i)*inverseRhoS;
             },
             [](const label, const label, const label*, const scalar*) {}
         );

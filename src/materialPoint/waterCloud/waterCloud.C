@@ -92,8 +92,8 @@ Foam::scalar Foam::mpm::waterCloud::volumeRatioAhead
             weight *= upper ? f : 1 - f;
             node += upper*grid_.stride(d);
         }
-        const scalar ratio = nodes_.velocity[node][nDim];
-        if (nodes_.momentum[node][nDim] > 0 && ratio > 0)
+        const scalar ratio = nodes_.smoothed(node);
+        if (nodes_.mass(node) > 0 && ratio > 0)
         {
             sum += weight*ratio;
             weights += weight;
@@ -177,10 +177,10 @@ void Foam::mpm::waterCloud::addOutletLoads()
     for (const auto& load : open_->loads())
     {
         const label i = load.first;
-        const scalar volume =
-            nDim == 2 ? nodes_.momentum[i][nDim + 1] : nodes_.volume[i];
-        const scalar part =
-            min(scalar(1), volume*boundary_.inverseVolume()[i]);
+        const scalar part = min
+        (
+            scalar(1), nodes_.cloudVolume(i)*boundary_.inverseVolume()[i]
+        );
         nodes_.force[i] += part*load.second;
     }
 

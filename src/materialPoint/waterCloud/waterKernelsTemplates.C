@@ -112,15 +112,14 @@ class waterKernelsFor
         );
     }
 
-    //- How much the volume at each node is off, into the scalar slot of the
-    //  velocity: inside the water any error but what a plane surface nearby
-    //  explains, elsewhere only an excess
+    //- How much the volume at each node is off: inside the water any error but
+    //  what a plane surface nearby explains, elsewhere only an excess
     void volumeErrors()
     {
         waterCloud& c = cloud_;
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
         const std::vector<scalar>& S = c.nodes_.saturation;
-        nodeField<nodeVector>& velocity = c.nodes_.velocity;
+        nodalFields& nodes = c.nodes_;
 
         forNeighbourhoods
         (
@@ -136,7 +135,7 @@ class waterKernelsFor
                         if (s < least && inverseVolume[i + n] > 0) least = s;
                     }
                 }
-                velocity[i][dim] =
+                nodes.volumeError(i) =
                     least <= waterCloud::insideSaturation
                   ? max(0.0, S[i] - waterCloud::outsideSaturation)
                   : S[i] >= 1
@@ -146,7 +145,10 @@ class waterKernelsFor
         );
 
         // The gap behind the last layer of an inlet is no error
-        for (const label i : c.boundary_.inflowNodes()) velocity[i][dim] = 0;
+        for (const label i : c.boundary_.inflowNodes())
+        {
+            nodes.volumeError(i) = 0;
+        }
     }
 
     //- Keep the volume ratio of points in zones of open inlets, and give it
@@ -179,10 +181,10 @@ class waterKernelsFor
     scalar meanVolumeRatio(const label i) const
     {
         const nodalFields& nodes = cloud_.nodes_;
-        const scalar unfolded = nodes.momentum[i][dim] + nodes.ghostMass[i];
+        const scalar unfolded = nodes.mass(i) + nodes.ghostMass[i];
         return
             unfolded > 0
-          ? cloud_.fluid_.rho0()*nodes.force[i][dim]/unfolded
+          ? cloud_.fluid_.rho0()*nodes.smoothingSum(i)/unfolded
           : 0;
     }
 
@@ -271,9 +273,9 @@ public:
         this->accelerate
         (
             deltaT,
-            [&](const label i, nodeVector& v)
+            [&](const label i)
             {
-                if (smoothing) v[dim] = meanVolumeRatio(i);
+                if (smoothing) c.nodes_.smoothed(i) = meanVolumeRatio(i);
             }
         );
         if (c.energyBalance_)

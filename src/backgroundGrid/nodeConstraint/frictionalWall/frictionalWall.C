@@ -31,12 +31,12 @@ Foam::scalar Foam::mpm::frictionalWall::moveImage
 ) const
 {
     const label nDim = grid_.nDim();
-    const scalar m = nodes.momentum[w.node][nDim];
+    const scalar m = nodes.mass(w.node);
     part = 0;
     if (w.next < 0) return m;
 
-    const scalar ghost = 2*nodes.ghostMomentum[w.node][nDim];
-    const scalar mNext = nodes.momentum[w.next][nDim];
+    const scalar ghost = 2*nodes.massOfGhosts(w.node);
+    const scalar mNext = nodes.mass(w.next);
     part = mNext > 0 ? ghost/mNext : 0;
     const scalar mWall = m + (2 - part)*ghost;
     nodeVector& v = nodes.velocity[w.node];
@@ -192,7 +192,7 @@ void Foam::mpm::frictionalWall::fold(nodeMotion& nodes) const
     for (const label i : active_)
     {
         const wallNode& w = nodes_[i];
-        const scalar m = momentum[w.node][nDim];
+        const scalar m = nodes.mass(w.node);
         if (w.next < 0 || !(m > 0)) continue;
 
         const nodeVector& ghost = nodes.ghostMomentum[w.node];
@@ -200,7 +200,7 @@ void Foam::mpm::frictionalWall::fold(nodeMotion& nodes) const
         {
             const scalar v =
                 d == w.direction ? 0 : momentum[w.node][d]/m;
-            momentum[w.next][d] += 2*ghost[nDim]*v - ghost[d];
+            momentum[w.next][d] += 2*nodes.massOfGhosts(w.node)*v - ghost[d];
         }
     }
 }
@@ -253,7 +253,7 @@ void Foam::mpm::frictionalWall::finish
     {
         const wallNode& w = nodes_[i];
         const contact& c = contacts_[i];
-        if (!(nodes.momentum[w.node][grid_.nDim()] > 0)) continue;
+        if (!(nodes.mass(w.node) > 0)) continue;
 
         scalar part;
         const scalar m = moveImage(w, c, nodes, part);
