@@ -648,4 +648,143 @@ TEST_CASE("water: a volume that is not positive is an error")
     );
 }
 
+namespace
+{
+
+//- Momentum of the points
+vector momentum(const materialPointCloud& cloud)
+{
+    const lattice& cells = cloud.grid().cells();
+    vector sum(Zero);
+    for (label p = 0; p < cloud.size(); ++p)
+    {
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            sum[cells.axis(d)] += cloud.mass()[p]*cloud.v(d)[p];
+        }
+    }
+    return sum;
+}
+
+//- Take a step, and return the force on the walls
+vector step(waterScene& s, const scalar deltaT)
+{
+    waterCloud& c = s.cloud();
+    c.particlesToGrid();
+    c.updateStress(deltaT);
+    c.updateNodes(deltaT);
+    c.finishNodes(deltaT);
+    c.gridToParticles(deltaT);
+    c.relocate(deltaT);
+
+    vector sum(Zero);
+    forAllConstIters(c.wallLoads(), iter) sum += iter.val().force;
+    return sum;
+}
+
+} // End anonymous namespace
+
+
+TEST_CASE("wall loads: what walls take is what the points lose")
+{
+    // Slip, moving and sticking walls, and a step with a convex corner
+    const vector g(2, -9.81, 1);
+    const scalar deltaT = 2e-4;
+
+    for (int dim = 2; dim <= 3; ++dim)
+    {
+        for (const std::string transfer : {"APIC", "FLIP", "PIC"})
+        {
+            meshPlan plan = box(dim, 6, 5, 3);
+            plan.present = [](int i, int j, int) { return i < 4 || j > 1; };
+            waterScene s
+            (
+                plan, g, {{"left", "noSlip"}, {"top", "noSlip"}},
+                "quadraticBSpline", "transfer " + transfer + ';'
+            );
+            s.fill
+            (
+                2,
+                [](const point& x) { return x.x() < 0.25 || x.y() > 1.5; },
+                [](const point& x)
+                {
+                    return vector(2*x.y() - 1, -x.x() - 0.4, 0.3*x.z());
+                }
+            );
+            s.cloud().relocate(0);
+            s.cloud().recordWallLoads();
+
+            scalar worst = 0;
+            scalar scale = 0;
+            for (int i = 0; i < 20; ++i)
+            {
+                const vector before = momentum(s.cloud());
+                scalar mass = 0;
+                for (label p = 0; p < s.cloud().size(); ++p)
+                {
+                    mass += s.cloud().mass()[p];
+                }
+                vector weight = mass*g;
+                if (dim == 2) weight.z() = 0;
+
+                const vector force = step(s, deltaT);
+                const vector after = momentum(s.cloud());
+                scale = max(scale, mag(force));
+                worst = max
+                (
+                    worst,
+                    mag((after - before)/deltaT - (weight - force))
+                );
+            }
+            atMost
+            (
+                std::to_string(dim) + "D, " + transfer
+              + ": error over the largest force",
+                worst/scale, 1e-10
+            );
+        }
+    }
+}
+
+
+TEST_CASE("wall loads: water at rest")
+{
+    // 0.6 m wide, 0.3 m thick, 0.8 m high
+    const vector g(0, -9.81, 0);
+    waterScene s(box(2, 6, 5, 1), g);
+    const scalar depth = 0.8;
+    s.fill
+    (
+        2,
+        [&](const point& x) { return x.y() - 1 < depth; },
+        [](const point&) { return vector::zero; },
+        [&](const point& x)
+        {
+            return waterScene::rho0*9.81*(depth - (x.y() - 1));
+        }
+    );
+    s.cloud().relocate(0);
+    s.cloud().recordWallLoads();
+
+    scalar mass = 0;
+    for (label p = 0; p < s.cloud().size(); ++p) mass += s.cloud().mass()[p];
+    const vector force = step(s, 1e-5);
+    const auto& load = s.cloud().wallLoads()["mirrorWall"];
+    const scalar weight = 9.81*mass;
+
+    // The points of the top row are not at rest from the first step on
+    atMost("floor bears the weight", mag(force.y()/-weight - 1), 2e-2);
+    atMost("sides push alike", mag(force.x())/weight, 1e-10);
+    // About the origin: the middle of the floor is at x = 0.1, z = 3.15
+    atMost
+    (
+        "moment of the weight", mag(load.moment.z()/(-0.1*weight) - 1), 2e-2
+    );
+    equal
+    (
+        "without being asked",
+        waterScene(box(2, 3, 3, 1), g).cloud().wallLoads().size(), 0
+    );
+}
+
 // ************************************************************************* //

@@ -488,6 +488,10 @@ void Foam::mpm::waterSoilInteraction::mixture()
     mixed_.clear();
     nodes_.clear();
     solidFraction_.clear();
+    if (water_.nodes().mirrorsRecorded())
+    {
+        fields_.mirroredForce.assign(grid_.nNodes(), nodeVector{});
+    }
     bulkVolume_.clear();
     nPacked_ = 0;
 
@@ -598,6 +602,17 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
     nodalFields& water = water_.nodes();
 
     grid_.exchange().sum(fields_.pressureForce);
+    if (!fields_.mirroredForce.empty())
+    {
+        grid_.exchange().sum(fields_.mirroredForce);
+        fields_.forNodes
+        (
+            [&](const label i)
+            {
+                water.mirrored.force[i] += fields_.mirroredForce[i];
+            }
+        );
+    }
 
     if (divergenceForm_)
     {

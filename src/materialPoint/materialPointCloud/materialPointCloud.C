@@ -91,7 +91,16 @@ void Foam::mpm::materialPointCloud::makeNodes()
     const label n = grid_.nNodes();
     nodes_.resize(n, grid_.nDim());
     if (boundary_.nodeWalls()) nodes_.ghostMomentum.assign(n, nodeVector{});
-    if (energyBalance_) nodes_.oldVelocity.assign(n, nodeVector{});
+    if (energyBalance_ || recordWallLoads_)
+    {
+        nodes_.oldVelocity.assign(n, nodeVector{});
+    }
+    if (recordWallLoads_)
+    {
+        nodes_.mirrored.force.assign(n, nodeVector{});
+        nodes_.mirrored.momentum.assign(n, nodeVector{});
+        nodes_.mirrored.mass.assign(n, nodeVector{});
+    }
     if (transfer_.valid() && transfer_->filtered())
     {
         filter_.assign(n, nodeVector{});
@@ -344,6 +353,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
     ),
     order_(grid),
     coupling_(nullptr),
+    recordWallLoads_(false),
     extremeLeft_(false),
     globalMaxSpeed_(0),
     stepCount_(0),
@@ -433,6 +443,33 @@ void Foam::mpm::materialPointCloud::finishPoints()
 {
     findMaxSpeed();
     activate(true);
+}
+
+
+void Foam::mpm::materialPointCloud::finishNodes(const scalar deltaT)
+{
+    boundary_.finish(deltaT, nodes_);
+    if (!nodes_.mirrorsRecorded()) return;
+
+    wallLoads_.clear();
+    for (const nodeConstraint& c : boundary_.constraints())
+    {
+        nodeConstraint::load sum
+        (
+            c.taken(nodes_, deltaT, transfer_->picFraction(deltaT))
+        );
+        reduce(sum.force, sumOp<vector>());
+        reduce(sum.moment, sumOp<vector>());
+        wallLoads_(c.type()) += sum;
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::recordWallLoads()
+{
+    recordWallLoads_ = true;
+    makeNodes();
+    activate(false);
 }
 
 

@@ -5,6 +5,17 @@ License
 
 #include "convexCorners.H"
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(convexCorners, 0);
+}
+}
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::mpm::convexCorners::cone Foam::mpm::convexCorners::coneOf
@@ -118,6 +129,26 @@ void Foam::mpm::convexCorners::constrain
             }
         }
     }
+}
+
+
+Foam::mpm::nodeConstraint::load Foam::mpm::convexCorners::taken
+(
+    const nodeMotion& nodes,
+    const scalar deltaT,
+    const scalar projected
+) const
+{
+    load sum;
+    for (const label i : active_)
+    {
+        const cone& c = cones_[i];
+        add
+        (
+            c.node, lost(nodes, c.node, deltaT, projected), c.intoSolid, sum
+        );
+    }
+    return sum;
 }
 
 // ************************************************************************* //

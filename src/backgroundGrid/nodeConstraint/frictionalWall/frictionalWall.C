@@ -54,7 +54,7 @@ Foam::scalar Foam::mpm::frictionalWall::moveImage
 }
 
 
-void Foam::mpm::frictionalWall::rub
+Foam::mpm::nodeVector Foam::mpm::frictionalWall::rub
 (
     const wallNode& w,
     const scalar impulse,
@@ -72,12 +72,15 @@ void Foam::mpm::frictionalWall::rub
     }
     const scalar speed = std::sqrt(speedSqr);
     const scalar lostPart = impulse < speed ? impulse/speed : 1;
+    nodeVector taken{};
     for (label d = 0; d < nDim; ++d)
     {
         if (d == w.direction) continue;
+        taken[d] = lostPart*v[d];
         if (w.next >= 0) velocity[w.next][d] -= part*lostPart*v[d];
         v[d] *= 1 - lostPart;
     }
+    return taken;
 }
 
 
@@ -252,12 +255,13 @@ void Foam::mpm::frictionalWall::finish
     for (const label i : active_)
     {
         const wallNode& w = nodes_[i];
-        const contact& c = contacts_[i];
+        contact& c = contacts_[i];
+        c.rubbed = nodeVector{};
         if (!(nodes.mass(w.node) > 0)) continue;
 
         scalar part;
         const scalar m = moveImage(w, c, nodes, part);
-        rub
+        c.rubbed = m*rub
         (
             w,
             w.coefficient*deltaT/m*max(scalar(0), c.pressing),
@@ -265,6 +269,39 @@ void Foam::mpm::frictionalWall::finish
             nodes.velocity
         );
     }
+}
+
+
+Foam::mpm::nodeConstraint::load Foam::mpm::frictionalWall::taken
+(
+    const nodeMotion& nodes,
+    const scalar deltaT,
+    const scalar projected
+) const
+{
+    // What is normal to it the mirror takes
+    load sum;
+    for (const label i : active_)
+    {
+        const wallNode& w = nodes_[i];
+        nodeVector f = contacts_[i].rubbed/deltaT;
+        if (w.next >= 0)
+        {
+            f += 2*projected/deltaT
+               *(
+                    nodes.ghostMomentum[w.node]
+                  + nodes.massOfGhosts(w.node)
+                   *(
+                        nodes.oldVelocity[w.next]
+                      - 2*nodes.oldVelocity[w.node]
+                    )
+                );
+        }
+        nodeVector along{1, 1, 1, 0};
+        along[w.direction] = 0;
+        add(w.node, f, along, sum);
+    }
+    return sum;
 }
 
 // ************************************************************************* //

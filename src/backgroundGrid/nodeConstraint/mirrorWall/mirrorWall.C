@@ -6,6 +6,17 @@ License
 #include "mirrorWall.H"
 #include "nodeFolding.H"
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(mirrorWall, 0);
+}
+}
+
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace
@@ -164,6 +175,43 @@ void Foam::mpm::mirrorWall::constrain
             v[d] = homogeneous ? 0 : fixedValue_[i][d];
         }
     }
+}
+
+
+Foam::mpm::nodeConstraint::load Foam::mpm::mirrorWall::taken
+(
+    const nodeMotion& nodes,
+    const scalar deltaT,
+    const scalar projected
+) const
+{
+    const nodeVector all{1, 1, 1, 0};
+    load sum;
+    for (const label i : activeSlip_)
+    {
+        const label node = slipNodes_[i];
+        add
+        (
+            node, lost(nodes, node, deltaT, projected), all - slipMask_[i], sum
+        );
+    }
+    for (const label i : activeFixed_)
+    {
+        const label node = fixedNodes_[i];
+        add(node, lost(nodes, node, deltaT, projected), all, sum);
+    }
+
+    // And through ghost nodes
+    const nodeMotion::mirrorSums& m = nodes.mirrored;
+    for (label node = 0; node < grid_.nNodes(); ++node)
+    {
+        const nodeVector& old = nodes.oldVelocity[node];
+        const nodeVector f = m.force[node]
+          + m.mass[node]*(nodes.velocity[node] - old)/deltaT
+          + projected/deltaT*(m.momentum[node] + m.mass[node]*old);
+        add(node, f, all, sum);
+    }
+    return sum;
 }
 
 // ************************************************************************* //
