@@ -239,11 +239,14 @@ TEST_CASE("nodeBoundary: an inlet is a wall at rest or a plug that moves")
     auto odd = [&]()
     {
         const label s =
-            boundary.stencil(grid.boxCell(zone.meshCells().front()));
+            boundary.folding().stencil
+            (
+                grid.boxCell(zone.meshCells().front())
+            );
         label n = 0;
         for (label t = 0; t < grid.reachSize(); ++t)
         {
-            const nodeVector& sign = boundary.signs(s)[t];
+            const nodeVector& sign = boundary.folding().signs(s)[t];
             n += sign[0] < 0 || sign[1] < 0;
         }
         return n;
