@@ -19,7 +19,8 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 sys.path.insert(0, str(REPOSITORY/"etc"/"python"))
 
-from mpmfoam import metrics, reference, style  # noqa: E402
+from mpmfoam import (  # noqa: E402
+    calibration, metrics, reference, soilElement, style)
 
 RESULTS = HERE/"results"
 RUNS = HERE/"runs"
@@ -45,32 +46,10 @@ EXAMPLE = {"A": "Ex3", "B": "Ex4", "C": "Ex5"}
 KARLSRUHE = dict(COMMON, d=0.14e-3, e0=0.9753, eRef=1.06, phiC=33.1, Ad=0.64,
                  kp=0.004, np=1.95, nd=2.9, muS=0.652, muD=0.72)
 
-HEADER = ("FoamFile {{ version 2.0; format ascii; class dictionary; "
-          "object {}; }}\n")
-
 
 def soilElementTest(name, soil, tests):
     """Run tests (name -> entries) on a soil; name -> columns"""
-    case = RUNS/name
-    for part in ["constant", "system"]:
-        (case/part).mkdir(parents=True, exist_ok=True)
-    entries = "".join(f"{k} {v:.10g};\n" for k, v in soil.items())
-    (case/"constant"/"materialPointProperties").write_text(
-        HEADER.format("materialPointProperties")
-        + "clouds (soil);\nsoil { constitutiveModel elastoplasticMuI;\n"
-        + f"elastoplasticMuICoeffs {{\n{entries}}} }}\n")
-    (case/"system"/"controlDict").write_text(
-        HEADER.format("controlDict") + "startFrom startTime; startTime 0; "
-        "stopAt endTime; endTime 1; deltaT 1; writeInterval 1;\n")
-    text = "".join(f"{k} {{ {v} }}\n" for k, v in tests.items())
-    (case/"system"/"soilElementTestDict").write_text(
-        HEADER.format("soilElementTestDict") + f"tests {{ {text} }}\n")
-    done = subprocess.run(["soilElementTest"], cwd=case, capture_output=True,
-                          text=True, env={**os.environ, "PWD": str(case)})
-    if done.returncode:
-        sys.exit(done.stdout[-2000:] + done.stderr[-2000:])
-    return {k: reference.readCsv(
-        case/"postProcessing"/"soilElementTest"/f"{k}.csv") for k in tests}
+    return soilElement.run(RUNS/name, soil, tests)
 
 
 # --- closed forms, in Python ------------------------------------------------
@@ -255,6 +234,30 @@ def karlsruhe(out, axes):
     axes[0].legend()
 
 
+def karlsruheFit(out):
+    """The same sand with the parameters that calibrateSoil finds, with tests at
+    other pressures and densities that it does not see"""
+    fit = calibration.Calibration(REPOSITORY/"tutorials"/"calibrateSoil")
+    fit.fit()
+    table = fit.table()
+    # By hand, in the same measure
+    hand = fit.simulate(KARLSRUHE, fit.tests, RUNS/"karlsruheFit")
+    misfits = [r for t in fit.tests for r in fit.misfits(hand, t)]
+    table["misfitByHand"] = [np.sqrt(np.mean(r**2)) for r in misfits]
+    table["rmsByHand"] = [m*c for m, c in zip(table["misfitByHand"],
+                                              table["largest"])]
+    reference.writeCsv(RESULTS/"karlsruheFit.csv", table,
+                       "tutorials/calibrateSoil: misfit: rms over the largest "
+                       "measured value; Start: before the fit; SI units, "
+                       "strain logarithmic")
+    fit.draw(RESULTS/"karlsruheFit.png")
+    for i, name in enumerate(table["test"]):
+        if table["quantity"][i] == "q":
+            out[f"karlsruheFit_{name}_qMisfitRms"] = table["misfit"][i]
+    for p in fit.parameters:
+        out[f"karlsruheFit_{p.name}"] = p.value
+
+
 def rheology(out, axes):
     """Shear of grains without skeleton stress: mu(I) and Phi(I)"""
     columns = {k: [] for k in ["set", "Phi", "I", "mu", "muExact",
@@ -354,6 +357,7 @@ def main():
     accuracy(out, axes[0, 0])
     endStates(out, axes[1, 0])
     karlsruhe(out, axes[:, 1])
+    karlsruheFit(out)
     rheology(out, axes[:, 2])
     sets(out, axes[:, 3])
     randomPaths(out, arguments.paths)

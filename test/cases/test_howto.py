@@ -1,0 +1,26 @@
+"""The commands in docs/howto run, in order, in an empty directory."""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+HOWTO = ROOT/"docs"/"howto"
+
+
+@pytest.mark.parametrize("name", ["ownSand.md"])
+def testCommands(name, tmp_path, figures):
+    blocks = re.findall(r"^```\n(.*?)^```$", (HOWTO/name).read_text(),
+                        re.MULTILINE | re.DOTALL)
+    figures.atLeast("blocks of commands", len(blocks), 1)
+    done = subprocess.run(
+        ["bash", "-e", "-c", "\n".join(blocks)], cwd=tmp_path,
+        capture_output=True, text=True, timeout=600,
+        env={**os.environ, "MPMFOAM_DIR": str(ROOT), "PWD": str(tmp_path),
+             "PYTHONPATH": str(ROOT/"etc"/"python"),
+             "PATH": f"{ROOT/'bin'}:{os.environ['PATH']}"})
+    print(done.stdout[-3000:] + done.stderr[-3000:])
+    figures.equal("exit status", done.returncode, 0)
