@@ -159,7 +159,8 @@ class DamBreak(Scene):
             h = self.h/finer
             yield study.Run(
                 self.label("interFoam", f"h{h:.3g}"),
-                [REPOSITORY/"validation"/"damBreak"/"interFoam",
+                [study.INTERFOAM_CASE,
+                 REPOSITORY/"validation"/"damBreak"/"interFoam",
                  (dam.TUTORIAL/"system"/"blockMeshDict",
                   "system/blockMeshDict"),
                  (dam.TUTORIAL/"constant"/"g", "constant/g")],

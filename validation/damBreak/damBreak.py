@@ -30,7 +30,7 @@ def runs():
         mesh = {"h": h, "nx": round(WIDTH/h), "ny": round(HEIGHT/h)}
         out.append(study.Run(
             f"interFoam_h{h:g}",
-            [HERE/"interFoam",
+            [study.INTERFOAM_CASE, HERE/"interFoam",
              (TUTORIAL/"system"/"blockMeshDict", "system/blockMeshDict"),
              (TUTORIAL/"constant"/"g", "constant/g")],
             study.INTERFOAM,

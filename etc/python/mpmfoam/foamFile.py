@@ -78,6 +78,25 @@ def readFaces(path):
     return np.array([face.split() for face in faces], dtype=int)
 
 
+def readFaceLists(path):
+    """Point labels of faces of any number of points: starts, labels"""
+    data, header, pos = _open(path)
+    if header["class"] == "faceCompactList":
+        starts, pos = _parseList(path, data, pos, "label", header)
+        labels, _ = _parseList(path, data, pos, "label", header)
+        return starts, labels
+    body = data[pos:]
+    sizes, labels = [], []
+    for size, face in re.findall(rb"(\d+)\(([-\d\s]+)\)", body):
+        sizes.append(int(size))
+        labels.append(face)
+    labels = np.array(b" ".join(labels).split(), dtype=int)
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    if starts[-1] != len(labels):
+        raise FoamFileError(f"{path}: faces that cannot be read")
+    return starts, labels
+
+
 def _open(path):
     """Content, header entries, and the position behind the header"""
     with open(path, "rb") as file:

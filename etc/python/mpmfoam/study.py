@@ -32,6 +32,9 @@ from .case import Case
 MPMFOAM = ["blockMesh", "setMaterialPoints", "mpmFoam"]
 INTERFOAM = ["blockMesh", "setFields", "interFoam"]
 
+# Fluids and numerics of every interFoam case that is compared with ours
+INTERFOAM_CASE = Path(__file__).resolve().parents[2]/"caseDicts"/"interFoam"
+
 _STAMP = "study.json"
 
 
