@@ -206,7 +206,7 @@ void measure
     scalar n = 0;
     for (const auto& cloud : points.clouds()) n += cloud.globalSize();
     const mpm::waterCloud* water =
-        withPlain ? &points.water("mpmBenchmark -plain") : nullptr;
+        withPlain ? &points.liquid("mpmBenchmark -plain") : nullptr;
 
     stepCost none;
     for (label i = 0; i < warmUp; ++i) step(points, runTime, none);
@@ -302,7 +302,7 @@ void measure
     {
         const double value =
             perPointStep*total(points.cost().seconds(i));
-        if (Pstream::master()) row(points.cost().name(i), value);
+        if (Pstream::master()) row(points.cost().name(i).c_str(), value);
         out.add(std::string("nsWall_") + points.cost().name(i), value);
     }
     if (Pstream::master())

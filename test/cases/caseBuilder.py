@@ -131,6 +131,9 @@ class Setup:
     interaction: dict = field(default_factory=lambda: {
         "drag": "DarcyForchheimer"})
 
+    # Name of the cloud of water
+    liquid = "water"
+
     def __post_init__(self):
         if self.g is None:
             self.g = (0, -G, 0) if self.dim == 2 else (0, 0, -G)
@@ -325,7 +328,7 @@ class Setup:
         """Text of all files of the case by their place in it"""
         files = {
             **{f"0/U.{cloud}": (self.velocity(
-                {"water": self.wall, "soil": self.soilWall}[cloud]),
+                self.wall if cloud == self.liquid else self.soilWall),
                 "volVectorField") for cloud in self.clouds},
             "constant/g": (self.gravity(), "uniformDimensionedVectorField"),
             "constant/materialPointProperties":

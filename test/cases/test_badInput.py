@@ -381,9 +381,9 @@ CASES = [
         edit=replace("system/setMaterialPointsDict", r"water", "wasser")),
 
     # Unknown
-    Bad("unknownCloud", {
-        "file": PROPERTIES, "keyword": r"\bclouds\b", "value": r"\bair\b",
-        "allowed": r"Valid.*water"},
+    Bad("cloudWithoutModel", {
+        "file": PROPERTIES, "keyword": "constitutiveModel",
+        "value": r"\bair\b"},
         edit=replace("constant/materialPointProperties",
                      r"clouds \(water\);", "clouds (water air); air {}")),
     Bad("unknownModel", {

@@ -168,37 +168,41 @@ static void place(const fvMesh& mesh, mpm::materialPointSystem& points)
     }
     mpm::checkKeywords(setDict, names, strict);
 
-    // All points first: water needs to know the pores of the soil
-    mpm::soilCloud* soil = points.soilPtr();
-    mpm::waterCloud* water = points.waterPtr();
-    autoPtr<mpm::soilPlacement> inSoil;
-    autoPtr<mpm::waterPlacement> inWater;
-    if (soil)
+    // All points first: a liquid needs to know the pores of the solids
+    mpm::waterCloud* liquid = points.liquidPtr();
+    PtrList<mpm::soilPlacement> solids;
+    autoPtr<mpm::waterPlacement> inLiquid;
+    for (mpm::soilCloud* solid : points.solids())
     {
-        inSoil.reset
+        solids.append
         (
             new mpm::soilPlacement
             (
-                *soil, mpm::subDictOf(setDict, soil->name()), points.g(),
-                water, strict
+                *solid, mpm::subDictOf(setDict, solid->name()), points.g(),
+                liquid, strict
             )
         );
+        for (label i = 0; i < solids.size() - 1; ++i)
+        {
+            solids[i].checkOverlap(solids.last());
+        }
     }
-    if (water)
+    if (liquid)
     {
-        inWater.reset
+        inLiquid.reset
         (
             new mpm::waterPlacement
             (
-                *water, mpm::subDictOf(setDict, water->name()), points.g(),
+                *liquid, mpm::subDictOf(setDict, liquid->name()), points.g(),
                 strict
             )
         );
-        inWater->setState(inSoil.get());
+        inLiquid->setState(solids);
     }
-    if (soil)
+    for (mpm::soilPlacement& s : solids) s.findWeights(solids);
+    for (mpm::soilPlacement& s : solids)
     {
-        inSoil->setState(inWater.valid() ? &inWater->regions() : nullptr);
+        s.setState(inLiquid.valid() ? &inLiquid->regions() : nullptr);
     }
 }
 

@@ -31,10 +31,12 @@ Usage
         }
     }
     \endverbatim
-    or the entries of one test without the sub-dictionaries.
+    or the entries of one test without the sub-dictionaries. Where the case has
+    several solids, \c cloud beside \c tests says which.
 
     \table
         Property        | Description                             | Default
+        cloud           | solid of the case                       | the only one
         test            | see elementTest                         | required
         p0              | pressure at the start [Pa]              | required
         e0              | void ratio at the start                 | soil's
@@ -63,6 +65,8 @@ Usage
 #include "clockTime.H"
 #include "sigFpe.H"
 #include "dictionaryEntries.H"
+#include "listed.H"
+#include "phaseRole.H"
 #include "elementTest.H"
 #include "adaptiveSubstepping.H"
 #include <cmath>
@@ -279,6 +283,30 @@ static void run
 }
 
 
+//- Name of the solid to be tested
+static word solid(const dictionary& properties, const dictionary& dict)
+{
+    DynamicList<word> solids;
+    for (const word& name : properties.get<wordList>("clouds"))
+    {
+        const dictionary& cloud = mpm::subDictOf(properties, name);
+        if (mpm::roleOf(cloud) == mpm::phaseRole::solid) solids.append(name);
+    }
+    if (!dict.found("cloud") && solids.size() == 1) return solids[0];
+
+    const word name(dict.lookupOrDefault<word>("cloud", word::null));
+    if (!solids.found(name))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword cloud is "
+            << (name.empty() ? word("not given") : name) << '.' << nl
+            << "    Allowed: a solid of the case, one of "
+            << mpm::listed(solids) << exit(FatalIOError);
+    }
+    return name;
+}
+
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -323,7 +351,7 @@ int main(int argc, char *argv[])
         );
     }
 
-    const dictionary& soil = mpm::subDictOf(properties, "soil");
+    const dictionary& soil = mpm::subDictOf(properties, solid(properties, dict));
     const fileName directory
     (
         runTime.globalPath()/"postProcessing"/"soilElementTest"
@@ -332,7 +360,7 @@ int main(int argc, char *argv[])
 
     if (dict.found("tests"))
     {
-        mpm::checkKeywords(dict, {"FoamFile", "tests"}, strict);
+        mpm::checkKeywords(dict, {"FoamFile", "tests", "cloud"}, strict);
         const dictionary& all = mpm::subDictOf(dict, "tests");
         for (const word& name : all.toc())
         {
@@ -343,6 +371,7 @@ int main(int argc, char *argv[])
     {
         dictionary one(dict);
         one.remove("FoamFile");
+        one.remove("cloud");
         run(dict.get<word>("test"), one, soil, directory, strict);
     }
 

@@ -50,7 +50,8 @@ void Foam::mpm::bedTimeSeries::readBedFraction(const dictionary& dict)
     {
         FatalIOErrorInFunction(dict)
             << "keyword cloud is " << cloud().name() << '.' << nl
-            << "    Allowed for " << type() << ": a cloud of soil"
+            << "    Allowed for " << type() << ": a solid, one of "
+            << listed(mesh_.sortedNames<soilCloud>())
             << exit(FatalIOError);
     }
     bedFraction_ = readBoundedOrDefault
@@ -71,13 +72,17 @@ Foam::wordList Foam::mpm::bedTimeSeries::keywords() const
 void Foam::mpm::bedTimeSeries::readEntries(const dictionary& dict)
 {
     readBedFraction(dict);
-    waterName_ = dict.lookupOrDefault<word>("water", "water");
+    const wordList liquids(mesh_.sortedNames<waterCloud>());
+    waterName_ = dict.lookupOrDefault<word>
+    (
+        "water", liquids.empty() ? word::null : liquids[0]
+    );
     if (dict.found("water") && !mesh_.foundObject<waterCloud>(waterName_))
     {
         FatalIOErrorInFunction(dict)
             << "keyword water is " << waterName_ << '.' << nl
-            << "    Allowed for " << type() << ": a cloud of water, one of "
-            << mesh_.sortedNames<waterCloud>() << exit(FatalIOError);
+            << "    Allowed for " << type() << ": a liquid, one of "
+            << listed(liquids) << exit(FatalIOError);
     }
 
     bool upward = true;
@@ -106,10 +111,13 @@ Foam::mpm::columnSurfaces::heights Foam::mpm::bedTimeSeries::find() const
             IOobject::groupName("alpha", cloudName)
         );
     };
-    return surfaces_->find
-    (
-        *alpha(cloud().name()), alpha(waterName_), bedFraction_
-    );
+    // The bed is of all solids
+    tmp<volScalarField> bed(*alpha(cloud().name()));
+    for (const word& solid : mesh_.sortedNames<soilCloud>())
+    {
+        if (solid != cloud().name()) bed = bed + *alpha(solid);
+    }
+    return surfaces_->find(bed(), alpha(waterName_), bedFraction_);
 }
 
 
@@ -124,7 +132,6 @@ Foam::mpm::bedTimeSeries::bedTimeSeries
 )
 :
     cloudTimeSeries(name, runTime, dict, file),
-    waterName_("water"),
     vertical_(-1),
     along_(-1),
     bedFraction_(0)

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "erosionCriteria.H"
+#include "listed.H"
 #include "waterCloud.H"
 #include "dictionaryEntries.H"
 #include "gravityMeshObject.H"
@@ -74,7 +75,8 @@ const Foam::mpm::waterCloud& Foam::mpm::erosionCriteria::water
     {
         FatalIOErrorInFunction(dict)
             << "keyword water is " << waterName() << '.' << nl
-            << "    Allowed for " << type() << ": a cloud of water"
+            << "    Allowed for " << type() << ": a liquid, one of "
+            << listed(mesh_.sortedNames<waterCloud>())
             << exit(FatalIOError);
     }
     return *water;

@@ -10,6 +10,7 @@ License
 #include "soilCloud.H"
 #include "waterSoilInteraction.H"
 #include "functionNeeds.H"
+#include "phaseRole.H"
 #include "dictionaryEntries.H"
 #include "uniformDimensionedFields.H"
 #include "PstreamReduceOps.H"
@@ -23,6 +24,17 @@ License
 
 namespace
 {
+    //- Names with blanks between
+    Foam::string joined(const Foam::UList<Foam::word>& names)
+    {
+        Foam::string all;
+        for (const Foam::word& name : names)
+        {
+            all += (all.empty() ? "" : " ") + name;
+        }
+        return all;
+    }
+
     //- Debug switch, off. Steps between two rebuilds: they change no number.
     int rebuildInterval(Foam::debug::debugSwitch("mpmRebuildInterval", 0));
 
@@ -195,11 +207,11 @@ void Foam::mpm::materialPointSystem::readForces()
 {
     gravityInTime_ =
         vectorInTime::New(control_, "gravity", dimAcceleration, grid_.cells());
-    if (water_)
+    if (liquid_)
     {
         pressureGradient_ = vectorInTime::New
         (
-            properties_.subDict("water"), "pressureGradient",
+            properties_.subDict(liquid_->name()), "pressureGradient",
             dimPressure/dimLength, grid_.cells()
         );
     }
@@ -228,12 +240,12 @@ void Foam::mpm::materialPointSystem::setForces(const scalar deltaT)
         (
             pressureGradient_.valid() ? pressureGradient_->value(time) : Zero
         );
-        for (materialPointCloud& cloud : clouds_)
+        forAll(clouds_, i)
         {
-            const scalar rho =
-                &cloud == static_cast<materialPointCloud*>(water_)
-              ? water_->fluid().rho0() : soil_->model().rhoS();
-            cloud.setForce(common + cloud.bodyForce(time) - gradient/rho);
+            clouds_[i].setForce
+            (
+                common + clouds_[i].bodyForce(time) - gradient/density_[i]
+            );
         }
     }
     if (settings_.relaxationDamping > 0)
@@ -263,16 +275,16 @@ void Foam::mpm::materialPointSystem::setForces(const scalar deltaT)
 }
 
 
-void Foam::mpm::materialPointSystem::makeClouds()
+Foam::wordList Foam::mpm::materialPointSystem::cloudNames() const
 {
-    const wordList allowed({"water", "soil"});
-
     if (!properties_.found("clouds"))
     {
         // The misspelt keyword is named, if there is one
-        wordList entries(allowed);
-        entries.append("clouds");
-        entries.append("interaction");
+        wordList entries({"clouds", "interaction"});
+        for (const entry& e : properties_)
+        {
+            if (e.isDict()) entries.append(e.keyword());
+        }
         checkKeywords(properties_, entries, true);
     }
     const wordList names(properties_.get<wordList>("clouds"));
@@ -281,84 +293,201 @@ void Foam::mpm::materialPointSystem::makeClouds()
     {
         FatalIOErrorInFunction(properties_)
             << "keyword clouds is empty." << nl
-            << "    Allowed: (water), (soil), (water soil)"
+            << "    Allowed: names of clouds, as (water), (soil), (water soil)"
             << exit(FatalIOError);
     }
+
+    // Of entries in the same dictionaries, and of fields on the mesh
+    const wordList reserved
+    ({
+        "clouds", "interaction", "case", "time", "complete", "mesh", "MPM",
+        "gravity", "adjustTimeStep", "p", "phi"
+    });
     forAll(names, i)
     {
-        if (!allowed.found(names[i]))
+        if (reserved.found(names[i]))
         {
             FatalIOErrorInFunction(properties_)
-                << "keyword clouds: unknown cloud " << names[i] << nl
-                << "    Valid names: " << listed(allowed)
-                << exit(FatalIOError);
+                << "keyword clouds names " << names[i] << ", which has another"
+                << " meaning." << nl << "    Allowed: any name but "
+                << listed(reserved) << exit(FatalIOError);
         }
         if (names.find(names[i]) != i)
         {
             FatalIOErrorInFunction(properties_)
                 << "keyword clouds names " << names[i] << " twice." << nl
-                << "    Allowed: (water), (soil), (water soil)"
-                << exit(FatalIOError);
+                << "    Allowed: each name once" << exit(FatalIOError);
         }
     }
-    settings_.coupled = names.size() == 2;
+    return names;
+}
 
+
+void Foam::mpm::materialPointSystem::checkDictionaries
+(
+    const wordList& names
+) const
+{
+    const string clouds("clouds is (" + joined(names) + ").\n    Allowed: ");
     wordList known(names);
     known.append("clouds");
     if (settings_.coupled) known.append("interaction");
-    for (const word& left : wordList({"water", "soil", "interaction"}))
+
+    for (const entry& e : properties_)
     {
-        if (known.found(left) || !properties_.found(left)) continue;
+        const word& left = e.keyword();
+        if (!e.isDict() || known.found(left)) continue;
 
         // Known is what it could be
         known.append(left);
+        wordList more(names);
+        more.append(left);
         reportEntry
         (
             properties_,
-            "dictionary " + left + " is not used: clouds is ("
-          + names[0] + ").\n    Allowed: clouds (water soil), or no dictionary "
-          + left,
+            "dictionary " + left + " is not used: " + clouds
+          + (
+                left == "interaction"
+              ? string("a liquid and a solid in clouds")
+              : "clouds (" + joined(more) + ')'
+            )
+          + ", or no dictionary " + left,
             settings_.strictKeywords
         );
     }
     checkKeywords(properties_, known, settings_.strictKeywords);
+}
+
+
+void Foam::mpm::materialPointSystem::checkVelocityFields
+(
+    const wordList& solids
+) const
+{
+    // Clouds that name each other share the field of the first of them
+    labelList field(identity(solids.size()));
+    for (label pass = 0; pass < solids.size(); ++pass)
+    {
+        forAll(solids, i)
+        {
+            const dictionary& dict = properties_.subDict(solids[i]);
+            const word name
+            (
+                dict.lookupOrDefault<word>("velocityField", solids[0])
+            );
+            const label other = solids.find(name);
+            if (other < 0)
+            {
+                FatalIOErrorInFunction(dict)
+                    << "keyword velocityField is " << name
+                    << ", which is no solid cloud of this case." << nl
+                    << "    Allowed: one of " << listed(solids)
+                    << exit(FatalIOError);
+            }
+            const label first = min(field[i], field[other]);
+            field[i] = field[other] = first;
+        }
+    }
+    forAll(solids, i)
+    {
+        if (field[i] == 0) continue;
+        const dictionary& dict = properties_.subDict(solids[i]);
+        FatalIOErrorInFunction(dict)
+            << "keyword velocityField is " << dict.get<word>("velocityField")
+            << ": the clouds " << solids[i] << " and " << solids[0]
+            << " would move through each other, as nothing acts between two"
+            << " velocity fields of solids." << nl << "    Allowed: "
+            << solids[0] << exit(FatalIOError);
+    }
+}
+
+
+Foam::mpm::waterCloud* Foam::mpm::materialPointSystem::newLiquid
+(
+    const word& name
+)
+{
+    const dictionary& dict = properties_.subDict(name);
+    waterCloud::checkDictionary(dict, settings_.strictKeywords);
+    return new waterCloud(name, mesh_, grid_, dict, settings_, cost_, g_);
+}
+
+
+Foam::mpm::soilCloud* Foam::mpm::materialPointSystem::newSolid
+(
+    const word& name,
+    const label nSolids
+)
+{
+    const dictionary& dict = properties_.subDict(name);
+    soilCloud::checkDictionary(dict, settings_.strictKeywords);
+
+    const word bedLoad(dict.lookupOrDefault<word>("bedLoad", "none"));
+    if (bedLoad != "none" && (!settings_.coupled || nSolids > 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword bedLoad is " << bedLoad << ", but there is "
+            << (nSolids > 1 ? "more than one solid." : "no liquid.") << nl
+            << "    Allowed: none, or a liquid and one solid in clouds"
+            << exit(FatalIOError);
+    }
+    return new soilCloud
+    (
+        name, mesh_, grid_, dict, settings_, cost_, g_,
+        solids_.size() ? solids_[0] : nullptr
+    );
+}
+
+
+void Foam::mpm::materialPointSystem::makeClouds()
+{
+    const wordList names(cloudNames());
+
+    DynamicList<word> liquids, solids;
+    for (const word& name : names)
+    {
+        if (!properties_.found(name))
+        {
+            // As above
+            wordList known(names);
+            known.append("clouds");
+            known.append("interaction");
+            checkKeywords(properties_, known, true);
+        }
+        const phaseRole role = roleOf(subDictOf(properties_, name));
+        (role == phaseRole::liquid ? liquids : solids).append(name);
+    }
+    if (liquids.size() > 1)
+    {
+        FatalIOErrorInFunction(properties_)
+            << "keyword clouds has more than one cloud of the role liquid: "
+            << listed(liquids) << nl
+            << "    Allowed: one liquid, and any number of solids"
+            << exit(FatalIOError);
+    }
+    settings_.coupled = liquids.size() && solids.size();
+    checkDictionaries(names);
+    checkVelocityFields(solids);
 
     clouds_.setSize(names.size());
+    density_.setSize(names.size());
     forAll(names, i)
     {
-        const dictionary& dict = subDictOf(properties_, names[i]);
-        if (names[i] == "water")
+        if (liquids.found(names[i]))
         {
-            waterCloud::checkDictionary(dict, settings_.strictKeywords);
-            water_ = new waterCloud
-            (
-                names[i], mesh_, grid_, dict, settings_, cost_, g_
-            );
-            clouds_.set(i, water_);
+            liquid_ = newLiquid(names[i]);
+            clouds_.set(i, liquid_);
+            density_[i] = liquid_->fluid().rho0();
         }
         else
         {
-            soilCloud::checkDictionary(dict, settings_.strictKeywords);
-            const word bedLoad
-            (
-                dict.lookupOrDefault<word>("bedLoad", "none")
-            );
-            if (!settings_.coupled && bedLoad != "none")
-            {
-                FatalIOErrorInFunction(dict)
-                    << "keyword bedLoad is " << bedLoad
-                    << ", but there is no water." << nl
-                    << "    Allowed: none, or clouds (water soil)"
-                    << exit(FatalIOError);
-            }
-            soil_ = new soilCloud
-            (
-                names[i], mesh_, grid_, dict, settings_, cost_, g_
-            );
-            clouds_.set(i, soil_);
+            soilCloud* solid = newSolid(names[i], solids.size());
+            solids_.append(solid);
+            clouds_.set(i, solid);
+            density_[i] = solid->model().rhoS();
         }
     }
-    // Checked in a scene with one cloud, too
+    // Checked in a scene with one phase, too
     const word pressureForm
     (
         readChoiceOrDefault
@@ -366,7 +495,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
     );
     if (settings_.coupled)
     {
-        soil_->setLiquid(*water_);
+        for (soilCloud* solid : solids_) solid->setLiquid(*liquid_);
         interaction_.reset
         (
             new waterSoilInteraction
@@ -374,11 +503,113 @@ void Foam::mpm::materialPointSystem::makeClouds()
                 properties_,
                 settings_.strictKeywords,
                 pressureForm == "divergence",
-                *water_,
-                *soil_,
+                *liquid_,
+                solids_,
                 cost_
             )
         );
+    }
+}
+
+
+Foam::string Foam::mpm::materialPointSystem::solidNames() const
+{
+    string names(solids_[0]->name());
+    for (label i = 1; i < solids_.size(); ++i)
+    {
+        names += ", " + solids_[i]->name();
+    }
+    return names;
+}
+
+
+void Foam::mpm::materialPointSystem::logBed(const Time& runTime) const
+{
+    if (interaction_.valid())
+    {
+        const int64_t packed =
+            returnReduce(int64_t(interaction_->nPacked()), sumOp<int64_t>());
+        if (packed)
+        {
+            Info<< "--> " << solidNames().c_str() << ": " << packed
+                << " nodes with less than 10 % porosity; the soil is"
+                << " over-compacted there" << nl;
+        }
+    }
+    // Where the surface of the bed has to be found for it, it costs half a step,
+    // and the nodes have their sums at write times only
+    soilCloud::bedState bed{};
+    if
+    (
+        (
+            (interaction_.valid() && interaction_->followsSurface())
+         || runTime.writeTime()
+        )
+     && solids_[0]->bed(bed) && bed.stress > 0
+    )
+    {
+        // The top row holds what is thinner than this (rowStress of
+        // bedLoadModel)
+        const scalar part = bed.movable/grid_.cells().minSpacing();
+        Info<< solids_[0]->name() << ": stress on the bed " << bed.stress
+            << " Pa (mean), which can move " << bed.movable << " m of it, "
+            << part << " cells: bed load is "
+            << (part < 0.25 ? "thinner than the grid resolves" : "resolved")
+            << nl;
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::logDensity() const
+{
+    // The percentile only where it may be too large: more than one point
+    // in a hundred is
+    const scalar most = 0.03;
+    const scalar* J = liquid_->J();
+    label nAbove = 0;
+    for (label p = 0; p < liquid_->size(); ++p)
+    {
+        nAbove += mag(1 - J[p]) > most*J[p];
+    }
+    const scalar variation = returnReduce
+    (
+        nAbove > 0.01*liquid_->size() ? liquid_->densityVariation() : 0,
+        maxOp<scalar>()
+    );
+    if (variation > most)
+    {
+        Info<< "--> " << liquid_->name() << ": the density varies by "
+            << 100*variation << " % (99th percentile); raise soundSpeed above "
+            << liquid_->fluid().soundSpeed() << " m/s for less" << nl;
+    }
+}
+
+
+void Foam::mpm::materialPointSystem::logImpacts() const
+{
+    // Softened soil that meets at such a speed stores the impact, instead of
+    // yielding to it, and throws it back
+    const scalar cap = settings_.maxSoilSoundSpeed;
+    const scalar most = cap/3;
+    for (const soilCloud* solid : solids_)
+    {
+        const scalar fastest = solid->globalMaxSpeed();
+        if (!(fastest > most)) continue;
+
+        const scalar nFaster =
+            returnReduce(scalar(solid->nFaster(most)), sumOp<scalar>());
+        const scalar share = nFaster/max(int64_t(1), solid->globalSize());
+
+        // As for a liquid: single grains in the air do not matter
+        if (share > 0.01)
+        {
+            Info<< "--> " << solid->name() << ": " << 100*share
+                << " % of the points are faster"
+                << " than a third of maxSoilSoundSpeed " << cap
+                << " m/s (the fastest: " << fastest << " m/s); impacts"
+                << " bounce like rubber. Raise maxSoilSoundSpeed above "
+                << 3*fastest << " m/s, or leave it out" << nl;
+        }
     }
 }
 
@@ -582,8 +813,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     ),
     control_(subDictOrEmpty(mesh.solutionDict(), "MPM")),
     grid_(mesh, control_),
-    water_(nullptr),
-    soil_(nullptr),
+    liquid_(nullptr),
     forced_(false),
     relaxed_(false),
     limiter_("none"),
@@ -619,15 +849,15 @@ Foam::mpm::materialPointSystem::~materialPointSystem()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::mpm::waterCloud& Foam::mpm::materialPointSystem::water(const word& user)
+Foam::mpm::waterCloud& Foam::mpm::materialPointSystem::liquid(const word& user)
 {
-    if (!water_)
+    if (!liquid_)
     {
         FatalIOErrorInFunction(properties_)
-            << user << " needs the cloud water." << nl
-            << "    keyword clouds: add water" << exit(FatalIOError);
+            << user << " needs a cloud of the role liquid." << nl
+            << "    keyword clouds: add one" << exit(FatalIOError);
     }
-    return *water_;
+    return *liquid_;
 }
 
 
@@ -830,10 +1060,10 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
         rebuild();
     }
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
-    if (soil_)
+    if (solids_.size())
     {
-        cost_.start("soil: strain rates");
-        soil_->findStrainRates();
+        cost_.start("strain rates", &solids_[0]->name());
+        solids_[0]->findStrainRates();
         cost_.stop();
     }
     if (interaction_.valid()) interaction_->mixture();
@@ -847,10 +1077,10 @@ void Foam::mpm::materialPointSystem::updateStress()
 
     setForces(deltaT);
 
-    // The pressure of the water acts on soil points, too
-    if (water_) water_->updateStress(deltaT);
+    // The pressure of the liquid acts on points of solids, too
+    if (liquid_) liquid_->updateStress(deltaT);
     if (interaction_.valid()) interaction_->keepWaterPressure();
-    if (soil_) soil_->updateStress(deltaT);
+    for (soilCloud* solid : solids_) solid->updateStress(deltaT);
 }
 
 
@@ -911,10 +1141,14 @@ void Foam::mpm::materialPointSystem::endStep(Time& runTime)
     {
         string found(nonFinite_);
 
-        // Velocities spread over the nodes to both clouds in one step; a state
+        // Velocities spread over the nodes to all clouds in one step; a state
         // that is not finite is nearer to the cause
-        string state(soil_ ? soil_->nonFiniteState() : string());
-        if (state.empty() && water_) state = water_->nonFiniteState();
+        string state;
+        for (const soilCloud* solid : solids_)
+        {
+            if (state.empty()) state = solid->nonFiniteState();
+        }
+        if (state.empty() && liquid_) state = liquid_->nonFiniteState();
 
         List<stringList> ofRank(Pstream::nProcs());
         ofRank[Pstream::myProcNo()] = stringList({state, found});
@@ -1006,86 +1240,9 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         }
     }
 
-    if (interaction_.valid())
-    {
-        const int64_t packed =
-            returnReduce(int64_t(interaction_->nPacked()), sumOp<int64_t>());
-        if (packed)
-        {
-            Info<< "--> soil: " << packed << " nodes with less than 10 %"
-                << " porosity; the soil is over-compacted there" << nl;
-        }
-    }
-    // Where the surface of the bed has to be found for it, it costs half a step,
-    // and the nodes have their sums at write times only
-    soilCloud::bedState bed{};
-    if
-    (
-        soil_
-     && (
-            (interaction_.valid() && interaction_->followsSurface())
-         || runTime.writeTime()
-        )
-     && soil_->bed(bed) && bed.stress > 0
-    )
-    {
-        // The top row holds what is thinner than this (rowStress of
-        // bedLoadModel)
-        const scalar part = bed.movable/h;
-        Info<< "soil: stress on the bed " << bed.stress
-            << " Pa (mean), which can move " << bed.movable << " m of it, "
-            << part << " cells: bed load is "
-            << (part < 0.25 ? "thinner than the grid resolves" : "resolved")
-            << nl;
-    }
-    if (water_)
-    {
-        // The percentile only where it may be too large: more than one point
-        // in a hundred is
-        const scalar most = 0.03;
-        const scalar* J = water_->J();
-        label nAbove = 0;
-        for (label p = 0; p < water_->size(); ++p)
-        {
-            nAbove += mag(1 - J[p]) > most*J[p];
-        }
-        const scalar variation = returnReduce
-        (
-            nAbove > 0.01*water_->size() ? water_->densityVariation() : 0,
-            maxOp<scalar>()
-        );
-        if (variation > most)
-        {
-            Info<< "--> water: the density varies by " << 100*variation
-                << " % (99th percentile); raise soundSpeed above "
-                << water_->fluid().soundSpeed() << " m/s for less" << nl;
-        }
-    }
-    if (soil_ && settings_.maxSoilSoundSpeed < GREAT)
-    {
-        // Softened soil that meets at such a speed stores the impact, instead
-        // of yielding to it, and throws it back
-        const scalar cap = settings_.maxSoilSoundSpeed;
-        const scalar most = cap/3;
-        const scalar fastest = soil_->globalMaxSpeed();
-        if (fastest > most)
-        {
-            const scalar nFaster =
-                returnReduce(scalar(soil_->nFaster(most)), sumOp<scalar>());
-            const scalar share =
-                nFaster/max(int64_t(1), soil_->globalSize());
-
-            // As for water: single grains in the air do not matter
-            if (share > 0.01)
-            {
-                Info<< "--> soil: " << 100*share << " % of the points are faster"
-                    << " than a third of maxSoilSoundSpeed " << cap
-                    << " m/s (the fastest: " << fastest << " m/s); impacts"
-                    << " bounce like rubber. Raise maxSoilSoundSpeed above "
-                    << 3*fastest << " m/s, or leave it out" << nl;
-            }
-        }
-    }
+    if (solids_.size()) logBed(runTime);
+    if (liquid_) logDensity();
+    if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();
     Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
         << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl
         << endl;
@@ -1115,7 +1272,7 @@ void Foam::mpm::materialPointSystem::reportCosts() const
         << "    part                          seconds   % run   "
         << "ns per point and step" << nl;
 
-    // By name: a rank that water and soil never share has no pore pressure
+    // By name: a rank that liquid and solids never share has no pore pressure
     List<stringList> names(Pstream::nProcs());
     List<scalarList> seconds(Pstream::nProcs());
     for (size_t i = 0; i < cost_.size(); ++i)

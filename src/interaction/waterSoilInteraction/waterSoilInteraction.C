@@ -36,7 +36,9 @@ Foam::scalar Foam::mpm::waterSoilInteraction::solidVolume
 ) const
 {
     return
-        soil_.nodes().mass(node)/soil_.model().rhoS();
+        mixedGrains_
+      ? mixedGrains_->solidVolume(node)
+      : soil_.nodes().mass(node)/soil_.model().rhoS();
 }
 
 
@@ -261,7 +263,7 @@ void Foam::mpm::waterSoilInteraction::readBedLoad
     const bool strictKeywords
 )
 {
-    const dictionary& dict = properties.subDict("soil");
+    const dictionary& dict = properties.subDict(soil_.name());
     const lattice& cells = grid_.cells();
     const vector& g = soil_.gravity();
 
@@ -281,7 +283,8 @@ void Foam::mpm::waterSoilInteraction::readBedLoad
     b.h = cells.minSpacing();
     if
     (
-        b.mu > 0 && b.g > 0 && b.rhoS > b.rho
+        solids_.size() == 1
+     && b.mu > 0 && b.g > 0 && b.rhoS > b.rho
      && !soil_.model().held() && drag_->active() && !divergenceForm_
     )
     {
@@ -298,7 +301,7 @@ void Foam::mpm::waterSoilInteraction::readBedLoad
     const char* missing =
         soil_.model().held() || !(b.mu > 0) ? "a soil that yields by friction"
       : !(b.g > 0) ? "gravity"
-      : !(b.rhoS > b.rho) ? "grains heavier than water"
+      : !(b.rhoS > b.rho) ? "grains heavier than the liquid"
       : !drag_->active() ? "drag"
       : divergenceForm_ ? "pressureForm gradient"
       : nullptr;
@@ -381,7 +384,10 @@ void Foam::mpm::waterSoilInteraction::makeNodes()
     touching_.clear();
 
     water_.couple(fields_, water_.boundary());
-    soil_.couple(fields_, water_.boundary());
+    for (soilCloud* solid : solids_)
+    {
+        solid->couple(fields_, water_.boundary());
+    }
 
     pressureInside_.assign(fields_.saturation.size(), nodeVector{});
     const label depth = (grid_.nDim() == 3 ? 1 : 0);
@@ -414,13 +420,15 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     const bool strictKeywords,
     const bool divergenceForm,
     waterCloud& water,
-    soilCloud& soil,
+    const List<soilCloud*>& solids,
     costMeter& cost
 )
 :
     grid_(water.grid()),
     water_(water),
-    soil_(soil),
+    solids_(solids),
+    soil_(*solids[0]),
+    mixedGrains_(soil_.grains().grainsDiffer() ? &soil_.grains() : nullptr),
     cost_(cost),
     divergenceForm_(divergenceForm),
     implicitDrag_(implicitDrag),
@@ -441,16 +449,19 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
         subDictOrEmpty(properties, "interaction"),
         dragModel::medium
         {
-            soil.model().d(), water.fluid().mu(), water.fluid().rho0()
+            soil_.model().d(), water.fluid().mu(), water.fluid().rho0()
         },
         strictKeywords
     );
 
-    if (soil.model().rhoS() <= water.fluid().rho0())
+    for (const soilCloud* solid : solids_)
     {
+        const scalar rhoS = solid->model().rhoS();
+        if (rhoS > water.fluid().rho0()) continue;
+
         IOWarningInFunction(properties)
-            << "keyword rhoS of the soil is " << soil.model().rhoS()
-            << ", rho0 of the water " << water.fluid().rho0()
+            << "keyword rhoS of the " << solid->name() << " is " << rhoS
+            << ", rho0 of the " << water.name() << ' ' << water.fluid().rho0()
             << " kg/m3: the grains float." << nl
             << "    Usual: rhoS > rho0 (rhoS is of the solid, without pores)"
             << nl << endl;
@@ -686,10 +697,28 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
         for (label d = 0; d < dim; ++d) speedSqr += sqr(vw[i][d] - vs[i][d]);
         speed_[k] = std::sqrt(speedSqr);
     }
-    drag_->coefficients
-    (
-        n, solidFraction_.data(), speed_.data(), a_.data(), b_.data()
-    );
+    if (mixedGrains_)
+    {
+        diameter_.resize(n);
+        for (label k = 0; k < n; ++k)
+        {
+            const label i = nodes_[k];
+            diameter_[k] =
+                mixedGrains_->diameter(i, soil_.nodes().mass(i));
+        }
+        drag_->coefficients
+        (
+            n, solidFraction_.data(), speed_.data(), diameter_.data(),
+            a_.data(), b_.data()
+        );
+    }
+    else
+    {
+        drag_->coefficients
+        (
+            n, solidFraction_.data(), speed_.data(), a_.data(), b_.data()
+        );
+    }
 
     if (implicitDrag_)
     {
@@ -750,14 +779,18 @@ void Foam::mpm::waterSoilInteraction::effects(effectsTable& table) const
       ? "pressure in divergence form: for comparison only"
       : "pressure in gradient form"
     );
-    table.add("  drag", drag_->active(), drag_->type());
+    table.add
+    (
+        "  drag", drag_->active(),
+        drag_->type() + (mixedGrains_ ? " of the mass-weighted diameter" : "")
+    );
     table.add
     (
         "  bed load", bedLoad_.valid(),
         bedLoad_.valid()
       ? bedLoad_->type() + ", stress averaged over "
       + Foam::name(bedLoad_->averagingTime()) + " s"
-      : string("soil/bedLoad")
+      : string(soil_.name() + "/bedLoad")
     );
 }
 

@@ -28,22 +28,28 @@ void Foam::mpm::cellOrder::clear()
 }
 
 
-void Foam::mpm::cellOrder::activate(const pointStorage& points)
+void Foam::mpm::cellOrder::activate
+(
+    const std::vector<const pointStorage*>& clouds
+)
 {
     for (const label cell : cells_) number_[cell] = -1;
     cells_.clear();
 
     // Occupied cells
-    const label* cell = points.cell();
     label last = -1;
-    for (label p = 0; p < points.size(); ++p)
+    for (const pointStorage* points : clouds)
     {
-        if (cell[p] == last) continue;
-        last = cell[p];
-        if (number_[last] < 0)
+        const label* cell = points->cell();
+        for (label p = 0; p < points->size(); ++p)
         {
-            number_[last] = 0;
-            cells_.push_back(last);
+            if (cell[p] == last) continue;
+            last = cell[p];
+            if (number_[last] < 0)
+            {
+                number_[last] = 0;
+                cells_.push_back(last);
+            }
         }
     }
 

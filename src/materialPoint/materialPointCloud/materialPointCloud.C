@@ -89,21 +89,78 @@ void Foam::mpm::materialPointCloud::zeroNodes()
 void Foam::mpm::materialPointCloud::makeNodes()
 {
     const label n = grid_.nNodes();
+    bool energyBalance = false, recordWallLoads = false, filtered = false;
+    for (const materialPointCloud* c : field_->clouds)
+    {
+        energyBalance = energyBalance || c->energyBalance_;
+        recordWallLoads = recordWallLoads || c->recordWallLoads_;
+        filtered =
+            filtered || (c->transfer_.valid() && c->transfer_->filtered());
+    }
+
     nodes_.resize(n, grid_.nDim());
     if (boundary_.nodeWalls()) nodes_.ghostMomentum.assign(n, nodeVector{});
-    if (energyBalance_ || recordWallLoads_)
+    if (energyBalance || recordWallLoads)
     {
         nodes_.oldVelocity.assign(n, nodeVector{});
     }
-    if (recordWallLoads_)
+    if (recordWallLoads)
     {
         nodes_.mirrored.force.assign(n, nodeVector{});
         nodes_.mirrored.momentum.assign(n, nodeVector{});
         nodes_.mirrored.mass.assign(n, nodeVector{});
     }
-    if (transfer_.valid() && transfer_->filtered())
+    if (filtered) filter_.assign(n, nodeVector{});
+}
+
+
+void Foam::mpm::materialPointCloud::checkBoundary() const
+{
+    const materialPointCloud& first = leader();
+    auto text = [](const fvPatchVectorField& Up)
     {
-        filter_.assign(n, nodeVector{});
+        // Values are results, but where they are what is imposed
+        OStringStream os;
+        Up.write(os);
+        IStringStream is(os.str());
+        dictionary entries(is);
+        if (!patchTypes::fixed.found(Up.type())) entries.remove("value");
+        return entries.digest();
+    };
+    forAll(U_.boundaryField(), patchi)
+    {
+        const fvPatchVectorField& own = U_.boundaryField()[patchi];
+        const fvPatchVectorField& others = first.U_.boundaryField()[patchi];
+        if (own.type() == others.type() && text(own) == text(others)) continue;
+
+        patchTypes::refuse
+        (
+            own,
+            "differs from that of " + first.U_.name() + " (type "
+          + others.type() + "), whose velocity field the cloud " + name()
+          + " shares"
+        );
+    }
+    const word corners(dict_.lookupOrDefault<word>("corners", word::null));
+    const word ofFirst
+    (
+        first.dict_.lookupOrDefault<word>("corners", "stick")
+    );
+    if (corners.size() && corners != ofFirst)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword corners is " << corners << ", but the cloud "
+            << first.name() << " of the same velocity field has " << ofFirst
+            << '.' << nl << "    Allowed: corners " << ofFirst
+            << exit(FatalIOError);
+    }
+    if (open_.valid() && open_->inlets().size())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword inflowOutflow has inlets, but the cloud " << name()
+            << " shares the velocity field of " << first.name() << '.' << nl
+            << "    Allowed: inlets in the cloud " << first.name()
+            << ", outlets in any" << exit(FatalIOError);
     }
 }
 
@@ -116,7 +173,12 @@ void Foam::mpm::materialPointCloud::activate(const bool sort)
     {
         nodes_.leave(range.first, range.second);
     }
-    order_.activate(points_);
+    std::vector<const pointStorage*> all;
+    for (const materialPointCloud* c : field_->clouds)
+    {
+        all.push_back(&c->points_);
+    }
+    order_.activate(all);
     boundary_.activate(order_.nodes());
     if (sort) order_.sort(points_);
 }
@@ -295,7 +357,8 @@ Foam::mpm::materialPointCloud::materialPointCloud
     costMeter& cost,
     const vector& g,
     const word& corners,
-    const bool soil
+    const bool solid,
+    const materialPointCloud* leader
 )
 :
     cloud(mesh, name),
@@ -339,19 +402,27 @@ Foam::mpm::materialPointCloud::materialPointCloud
     ),
     open_
     (
-        inflowOutflow::New(dict, grid, U_, g, soil, control.strictKeywords)
+        inflowOutflow::New(dict, grid, U_, g, solid, control.strictKeywords)
     ),
-    boundary_
+    field_
     (
-        grid,
-        U_,
-        readChoiceOrDefault(dict, "corners", corners, {"slip", "stick"})
-     == "slip"
-      ? nodeBoundary::slipCorners
-      : nodeBoundary::stickCorners,
-        inflowOutflow::zones(open_)
+        leader
+      ? leader->field_
+      : std::make_shared<velocityField>
+        (
+            grid,
+            U_,
+            readChoiceOrDefault(dict, "corners", corners, {"slip", "stick"})
+         == "slip"
+          ? nodeBoundary::slipCorners
+          : nodeBoundary::stickCorners,
+            inflowOutflow::zones(open_)
+        )
     ),
-    order_(grid),
+    boundary_(field_->boundary),
+    order_(field_->order),
+    nodes_(field_->nodes),
+    filter_(field_->filter),
     coupling_(nullptr),
     recordWallLoads_(false),
     extremeLeft_(false),
@@ -369,7 +440,7 @@ Foam::mpm::materialPointCloud::materialPointCloud
 
     for (const fvPatchVectorField& Up : U_.boundaryField())
     {
-        if (!soil && isA<constrainedWallFvPatchVectorField>(Up))
+        if (!solid && isA<constrainedWallFvPatchVectorField>(Up))
         {
             const auto& wall =
                 refCast<const constrainedWallFvPatchVectorField>(Up);
@@ -395,6 +466,8 @@ Foam::mpm::materialPointCloud::materialPointCloud
     // decomposed lagrangian files need the base points of all ranks
     (void)mesh.tetBasePtIs();
 
+    field_->clouds.push_back(this);
+    if (!leads()) checkBoundary();
     makeNodes();
 }
 
@@ -409,7 +482,8 @@ size_t Foam::mpm::materialPointCloud::pointMemory() const
 
 size_t Foam::mpm::materialPointCloud::nodeMemory() const
 {
-    return nodes_.memory() + boundary_.memory() + order_.memory();
+    return
+        leads() ? nodes_.memory() + boundary_.memory() + order_.memory() : 0;
 }
 
 
@@ -448,6 +522,8 @@ void Foam::mpm::materialPointCloud::finishPoints()
 
 void Foam::mpm::materialPointCloud::finishNodes(const scalar deltaT)
 {
+    if (!leads()) return;
+
     boundary_.finish(deltaT, nodes_);
     if (!nodes_.mirrorsRecorded()) return;
 
@@ -467,7 +543,7 @@ void Foam::mpm::materialPointCloud::finishNodes(const scalar deltaT)
 
 void Foam::mpm::materialPointCloud::recordWallLoads()
 {
-    recordWallLoads_ = true;
+    field_->clouds.front()->recordWallLoads_ = true;
     makeNodes();
     activate(false);
 }
@@ -475,15 +551,23 @@ void Foam::mpm::materialPointCloud::recordWallLoads()
 
 void Foam::mpm::materialPointCloud::rebuild()
 {
+    if (!leads()) return;
+
     if (open_.valid()) open_->rebuild(g_);
     boundary_.rebuild(inflowOutflow::zones(open_));
     if (open_.valid()) open_->giveSpeeds(boundary_);
 
     order_.clear();
     makeNodes();
-    makeKernels();
-
-    for (label p = 0; p < size(); ++p) setCell(p, boxCoordinate(p));
+    for (materialPointCloud* c : field_->clouds)
+    {
+        if (c != this && c->open_.valid()) c->open_->rebuild(g_);
+        c->makeKernels();
+        for (label p = 0; p < c->size(); ++p)
+        {
+            c->setCell(p, c->boxCoordinate(p));
+        }
+    }
     activate(false);
 }
 

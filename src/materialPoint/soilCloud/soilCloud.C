@@ -151,14 +151,16 @@ Foam::mpm::soilCloud::soilCloud
     const dictionary& dict,
     const settings& control,
     costMeter& cost,
-    const vector& g
+    const vector& g,
+    const soilCloud* leader
 )
 :
     materialPointCloud
     (
-        name, mesh, grid, dict, control, cost, g, "stick", true
+        name, mesh, grid, dict, control, cost, g, "stick", true, leader
     ),
     model_(soilModel::New(dict, control.strictKeywords)),
+    skeleton_(leader ? leader->skeleton_ : std::make_shared<skeleton>()),
     sigma_(points_.add("sigma", pointStorage::symmTensorValue)),
     voidRatio_(points_.add("voidRatio", pointStorage::scalarValue)),
     regime_(-1),
@@ -207,6 +209,7 @@ Foam::mpm::soilCloud::soilCloud
         grid.shapeFunction() == linear::name ? "FLIP" : "APIC",
         apicRate*fallRate()
     );
+    skeleton_->add(*this);
     makeKernels();
 }
 
@@ -238,6 +241,8 @@ void Foam::mpm::soilCloud::checkDictionary
             "bodyForce",
             "inflowOutflow",
             "bedLoad",
+            "role",
+            "velocityField",
             dict.lookupOrDefault<word>("bedLoad", "none") + "Coeffs"
         },
         strictKeywords
@@ -259,7 +264,7 @@ void Foam::mpm::soilCloud::slip
     const surfaceSlip& law
 )
 {
-    cost_.start("soil: bed load");
+    startCost("bed load");
     kernels_->slip(deltaT, stress, normal, law);
     cost_.stop();
 }
@@ -295,6 +300,13 @@ void Foam::mpm::soilCloud::setState
 }
 
 
+size_t Foam::mpm::soilCloud::nodeMemory() const
+{
+    return
+        materialPointCloud::nodeMemory() + (leads() ? skeleton_->memory() : 0);
+}
+
+
 void Foam::mpm::soilCloud::finishPoints()
 {
     materialPointCloud::finishPoints();
@@ -302,35 +314,16 @@ void Foam::mpm::soilCloud::finishPoints()
 }
 
 
+void Foam::mpm::soilCloud::rebuild()
+{
+    if (leads()) skeleton_->makeNodes(grid_.nNodes());
+    materialPointCloud::rebuild();
+}
+
+
 void Foam::mpm::soilCloud::addLimits(stepLimits& limits)
 {
-    limits.addMaximum
-    (
-        stepLimits::end,
-        [this]() { return waveSpeedSqr_; },
-        global_.waveSpeedSqr
-    );
-    limits.addMaximum
-    (
-        stepLimits::end, [this]() { return viscosity_; }, global_.viscosity
-    );
-    limits.addMinimum
-    (
-        stepLimits::end,
-        [this]() { return minVoidRatio_; },
-        global_.minVoidRatio
-    );
-    limits.addMaximum
-    (
-        stepLimits::start,
-        [this]() { return compressionRate_; },
-        global_.compressionRate
-    );
-    limits.addMaximum
-    (
-        stepLimits::start, [this]() { return shearSqr_; }, global_.shearSqr
-    );
-
+    if (leads()) skeleton_->addLimits(limits);
     materialPointCloud::addLimits(limits);
 
     // What meets may be as stiff at the end of the step as an impact makes it;
@@ -352,8 +345,8 @@ Foam::scalar Foam::mpm::soilCloud::waveSpeed() const
     // Undrained, the liquid in the pores stiffens the skeleton. The stiffest
     // and the densest point may be on different ranks: together they limit the
     // step, or it would depend on the decomposition
-    scalar waveSpeedSqr = global_.waveSpeedSqr;
-    const scalar voidRatio = global_.minVoidRatio;
+    scalar waveSpeedSqr = skeleton_->global().waveSpeedSqr;
+    const scalar voidRatio = skeleton_->global().minVoidRatio;
     const bool empty = !(voidRatio < GREAT);
 
     // As the nodes have it
@@ -371,6 +364,8 @@ Foam::scalar Foam::mpm::soilCloud::waveSpeed() const
 
 void Foam::mpm::soilCloud::findStrainRates()
 {
+    if (!leads()) return;
+
     const label dim = grid_.nDim();
     const lattice& cells = grid_.cells();
 
@@ -421,8 +416,8 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT(const scalar courant) const
 {
     const scalar h = courant*grid_.cells().minSpacing();
     const scalar cSqr = sqr(waveSpeed());
-    const scalar rate = global_.compressionRate;
-    const scalar e = min(global_.minVoidRatio, model_->e0());
+    const scalar rate = skeleton_->global().compressionRate;
+    const scalar e = min(skeleton_->global().minVoidRatio, model_->e0());
 
     auto tooLarge = [&](const scalar deltaT)
     {
@@ -451,11 +446,11 @@ Foam::scalar Foam::mpm::soilCloud::impactDeltaT(const scalar courant) const
 
 Foam::scalar Foam::mpm::soilCloud::viscosity() const
 {
-    const scalar e = min(global_.minVoidRatio, model_->e0());
+    const scalar e = min(skeleton_->global().minVoidRatio, model_->e0());
     return max
     (
-        global_.viscosity,
-        model_->viscosity(std::sqrt(global_.shearSqr), e)
+        skeleton_->global().viscosity,
+        model_->viscosity(std::sqrt(skeleton_->global().shearSqr), e)
     );
 }
 

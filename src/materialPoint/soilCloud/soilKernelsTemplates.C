@@ -126,12 +126,15 @@ class soilKernelsFor
     void releaseSuspended()
     {
         soilCloud& c = cloud_;
+        bool any = false;
+        for (const soilCloud* s : c.skeleton_->clouds())
+        {
+            any = any || s->regime_ >= 0;
+        }
 
         // The same on all ranks
-        if (!c.boundary_.nodeWalls() || !c.liquid_ || c.regime_ < 0)
-        {
-            return;
-        }
+        if (!any || !c.boundary_.nodeWalls() || !c.liquid_) return;
+
         if (pressedTiles_.empty())
         {
             pressedTiles_ =
@@ -141,41 +144,9 @@ class soilKernelsFor
         }
         nodeField<nodeVector>& weight = suspended_.force;
         this->forActiveNodes([&](const label i) { weight[i] = nodeVector{}; });
-
-        const scalar* mass = c.points_.column(c.mass_);
-        const scalar* regime = c.points_.column(c.regime_);
-        scalar gravity[dim];
-        for (int d = 0; d < dim; ++d)
+        for (soilCloud* s : c.skeleton_->clouds())
         {
-            gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
-        }
-        auto ofSuspended = [&](const label p, lanes (&force)[dim])
-        {
-            const lanes zero{};
-            const lanes m =
-                loadLanes(regime + p) == allLanes(soilModel::suspended)
-              ? loadLanes(mass + p)
-              : zero;
-            for (int d = 0; d < dim; ++d) force[d] = m*gravity[d];
-        };
-
-        const label n = c.size();
-        const label* tile = c.points_.tile();
-        pointView<dim> view(c.template view<dim>());
-        for (label begin = 0; begin < n;)
-        {
-            bool any = false;
-            label end = begin;
-            for (; end < n && tile[end] == tile[begin]; ++end)
-            {
-                any = any || regime[end] == soilModel::suspended;
-            }
-            if (any && pressedTiles_[tile[begin]])
-            {
-                view.n = end;
-                kernels_.vectorsToGrid(view, begin, ofSuspended, weight);
-            }
-            begin = end;
+            s->kernels_->addSuspended(pressedTiles_, weight);
         }
         c.grid_.exchange().sum(weight);
 
@@ -203,29 +174,71 @@ public:
     virtual void particlesToGrid()
     {
         soilCloud& c = cloud_;
+        skeleton& grains = *c.skeleton_;
 
-        c.cost_.start("soil: particle-to-grid");
-        this->sumToNodes(makeMaterial());
+        c.startCost("particle-to-grid");
+        c.zeroNodes();
+        grains.addToNodes(c.nodes_, c.order_.nodeRanges());
+        this->completeSums();
+        grains.exchangeNodes(c.grid_.exchange());
 
-        c.cost_.start("soil: nodes");
+        c.startCost("nodes");
         this->nodalVelocities();
 
         // The solid fraction that the grid shows
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
-        const scalar inverseRhoS = 1/c.model_->rhoS();
-        this->forActiveNodes
-        (
-            [&](const label i)
-            {
-                c.nodes_.solidFraction(i) =
-                    c.nodes_.mass(i)*inverseRhoS*inverseVolume[i];
-            }
-        );
+        if (grains.grainsDiffer())
+        {
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    c.nodes_.solidFraction(i) =
+                        grains.solidVolume(i)*inverseVolume[i];
+                }
+            );
+        }
+        else
+        {
+            const scalar inverseRhoS = 1/c.model_->rhoS();
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    c.nodes_.solidFraction(i) =
+                        c.nodes_.mass(i)*inverseRhoS*inverseVolume[i];
+                }
+            );
+        }
         c.cost_.stop();
     }
 
 
+    virtual void addToNodes()
+    {
+        kernels_.particleToGrid
+        (
+            cloud_.template view<dim>(), makeMaterial(), cloud_.nodes_
+        );
+    }
+
+
     virtual void updateStress(const scalar deltaT)
+    {
+        soilCloud& c = cloud_;
+        skeleton& grains = *c.skeleton_;
+
+        c.startCost("stress and forces");
+        grains.addForces(deltaT, c.nodes_, c.order_.nodeRanges());
+        this->exchangeForces();
+        grains.findMeans(c.grid_.exchange(), c.order_.nodeRanges());
+        releaseSuspended();
+        this->filter();
+        c.cost_.stop();
+    }
+
+
+    virtual void addForces(const scalar deltaT)
     {
         soilCloud& c = cloud_;
         const label n = c.size();
@@ -243,7 +256,6 @@ public:
         c.viscosity_ = 0;
         c.minVoidRatio_ = GREAT;
 
-        c.cost_.start("soil: stress and forces");
         for (label begin = 0; begin < n;)
         {
             label end = min(begin + chunk, n);
@@ -277,10 +289,53 @@ public:
             kernels_.forcesToGrid(view, begin, m, c.nodes_, coupling, water);
             begin = end;
         }
-        this->exchangeForces();
-        releaseSuspended();
-        this->filter();
-        c.cost_.stop();
+    }
+
+
+    virtual void addSuspended
+    (
+        const std::vector<char>& tiles,
+        nodeField<nodeVector>& weight
+    )
+    {
+        soilCloud& c = cloud_;
+        if (c.regime_ < 0) return;
+
+        const scalar* mass = c.points_.column(c.mass_);
+        const scalar* regime = c.points_.column(c.regime_);
+        scalar gravity[dim];
+        for (int d = 0; d < dim; ++d)
+        {
+            gravity[d] = c.acceleration_[c.grid_.cells().axis(d)];
+        }
+        auto ofSuspended = [&](const label p, lanes (&force)[dim])
+        {
+            const lanes zero{};
+            const lanes m =
+                loadLanes(regime + p) == allLanes(soilModel::suspended)
+              ? loadLanes(mass + p)
+              : zero;
+            for (int d = 0; d < dim; ++d) force[d] = m*gravity[d];
+        };
+
+        const label n = c.size();
+        const label* tile = c.points_.tile();
+        pointView<dim> view(c.template view<dim>());
+        for (label begin = 0; begin < n;)
+        {
+            bool any = false;
+            label end = begin;
+            for (; end < n && tile[end] == tile[begin]; ++end)
+            {
+                any = any || regime[end] == soilModel::suspended;
+            }
+            if (any && tiles[tile[begin]])
+            {
+                view.n = end;
+                kernels_.vectorsToGrid(view, begin, ofSuspended, weight);
+            }
+            begin = end;
+        }
     }
 
 
@@ -288,8 +343,8 @@ public:
     {
         soilCloud& c = cloud_;
 
-        c.cost_.start("soil: nodes");
-        if (c.compression_ >= 0)
+        c.startCost("nodes");
+        if (c.compression_ >= 0 && !c.skeleton_->severalKinds())
         {
             // The mean compression; ghost nodes have their own
             this->accelerate
@@ -332,7 +387,11 @@ public:
     {
         soilCloud& c = cloud_;
 
-        c.cost_.start("soil: grid-to-particle");
+        c.startCost("grid-to-particle");
+        if (c.compression_ >= 0 && c.skeleton_->severalKinds())
+        {
+            c.skeleton_->giveMean(c, c.nodes_, c.order_.nodeRanges());
+        }
         material m(makeMaterial());
         kernels_.gridToParticle
         (

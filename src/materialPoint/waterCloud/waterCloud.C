@@ -385,7 +385,8 @@ void Foam::mpm::waterCloud::checkDictionary
             "tensionCutOff",
             "bodyForce",
             "pressureGradient",
-            "inflowOutflow"
+            "inflowOutflow",
+            "role"
         },
         strictKeywords
     );
@@ -396,7 +397,7 @@ void Foam::mpm::waterCloud::findSoundSpeed
 (
     const scalar surface,
     const scalar landing,
-    materialPointCloud* soil
+    const UList<materialPointCloud*>& solids
 )
 {
     if (!fluid_.autoSoundSpeed()) return;
@@ -435,9 +436,10 @@ void Foam::mpm::waterCloud::findSoundSpeed
 
     // Soil hits the water as water would
     std::string others;
-    if (soil)
+    for (materialPointCloud* solid : solids)
     {
-        others = "; soil: " + speeds(*soil, landing < GREAT ? landing : floor);
+        others += "; " + solid->name() + ": "
+          + speeds(*solid, landing < GREAT ? landing : floor);
     }
 
     if (reference <= SMALL)

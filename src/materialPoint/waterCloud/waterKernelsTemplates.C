@@ -208,10 +208,10 @@ public:
 
     virtual void particlesToGrid()
     {
-        cloud_.cost_.start("water: particle-to-grid");
+        cloud_.startCost("particle-to-grid");
         this->sumToNodes(makeMaterial(0));
 
-        cloud_.cost_.start("water: nodes");
+        cloud_.startCost("nodes");
         this->nodalVelocities();
         cloud_.cost_.stop();
     }
@@ -221,7 +221,7 @@ public:
     {
         waterCloud& c = cloud_;
 
-        c.cost_.start("water: volume (nodes)");
+        c.startCost("volume (nodes)");
         saturations();
         if (c.settings_.volumeCorrection)
         {
@@ -229,7 +229,7 @@ public:
             c.correctBasins(deltaT);
         }
 
-        c.cost_.start("water: stress and forces");
+        c.startCost("stress and forces");
         const scalar keep = 1 - c.transfer_->picFraction(deltaT);
         material m(makeMaterial(deltaT));
         hold();
@@ -269,7 +269,7 @@ public:
         waterCloud& c = cloud_;
         const bool smoothing = c.settings_.smoothing;
 
-        c.cost_.start("water: nodes");
+        c.startCost("nodes");
         this->accelerate
         (
             deltaT,
@@ -291,7 +291,7 @@ public:
     {
         waterCloud& c = cloud_;
 
-        c.cost_.start("water: grid-to-particle");
+        c.startCost("grid-to-particle");
         material m(makeMaterial(deltaT));
         kernels_.gridToParticle
         (

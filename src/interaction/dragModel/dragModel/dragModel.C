@@ -47,4 +47,24 @@ Foam::autoPtr<Foam::mpm::dragModel> Foam::mpm::dragModel::New
     return found()(m, subDictOrEmpty(dict, name + "Coeffs"), strictKeywords);
 }
 
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::dragModel::coefficients
+(
+    const label n,
+    const scalar* solidFraction,
+    const scalar* speed,
+    const scalar* diameter,
+    scalar* a,
+    scalar* b
+)
+{
+    for (label i = 0; i < n; ++i)
+    {
+        medium_.d = diameter[i];
+        coefficients(1, solidFraction + i, speed + i, a + i, b + i);
+    }
+}
+
 // ************************************************************************* //

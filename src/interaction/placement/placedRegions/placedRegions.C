@@ -10,6 +10,7 @@ License
 #include "listed.H"
 #include "machineMemory.H"
 #include "PstreamReduceOps.H"
+#include "waterCloud.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -81,11 +82,11 @@ void Foam::mpm::placedRegions::checkEntries
 
 void Foam::mpm::placedRegions::checkDensity() const
 {
-    if (cloud_.name() == "water" && nPerDirection_ < 2)
+    if (isA<waterCloud>(cloud_) && nPerDirection_ < 2)
     {
         IOWarningInFunction(dict_)
             << "keyword pointsPerDirection is " << nPerDirection_
-            << ": still water may lose"
+            << ": a liquid at rest may lose"
             << " a sixth of its depth within seconds." << nl
             << "    Usual: 2 to 4" << nl << endl;
     }

@@ -20,8 +20,8 @@ Foam::scalar Foam::mpm::soilPlacement::effectiveWeight
     if (saturated && !water_)
     {
         FatalIOErrorInFunction(dict)
-            << "keyword saturated is yes, but the scene has no water." << nl
-            << "    Allowed: no, or clouds (water soil) in"
+            << "keyword saturated is yes, but the scene has no liquid." << nl
+            << "    Allowed: no, or a liquid in clouds of"
             << " constant/materialPointProperties" << exit(FatalIOError);
     }
     const scalar buoyancy = saturated ? water_->fluid().rho0() : 0;
@@ -187,10 +187,12 @@ void Foam::mpm::soilPlacement::checkPoreWater
     {
         OSstream& os = IOWarningInFunction(r.dict);
         os  << "region " << r.dict.dictName() << ": " << nDry << " of " << n
-            << " points of soil hold no water in their pores"
+            << " points of " << soil_.name()
+            << " hold no water in their pores"
             << (buoyant ? ", but are as light as under water" : "");
         if (nUnder) os << ", and " << nUnder << " of them lie under water";
-        os  << '.' << nl << "    Allowed: a region of the cloud water over the"
+        os  << '.' << nl << "    Allowed: a region of the cloud "
+            << water_->name() << " over the"
             << " soil as well, or saturated no; for soil that starts dry"
             << nl << endl;
     }
@@ -219,7 +221,8 @@ Foam::mpm::soilPlacement::soilPlacement
     ),
     g_(mag(gravity)),
     water_(water),
-    domain_(soil.grid().mesh().points(), true)
+    domain_(soil.grid().mesh().points(), true),
+    solids_(nullptr)
 {}
 
 
@@ -270,14 +273,60 @@ Foam::string Foam::mpm::soilPlacement::refusal
 }
 
 
-void Foam::mpm::soilPlacement::setState(const placedRegions* inWater)
+bool Foam::mpm::soilPlacement::weightAt(const point& x, scalar& weight) const
 {
+    for (const soilPlacement& s : *solids_)
+    {
+        const label region = s.regions_.find(x, s.regions_.cellAt(x));
+        if (region < 0) continue;
+
+        weight = s.weights_[region];
+        return true;
+    }
+    return false;
+}
+
+
+void Foam::mpm::soilPlacement::checkOverlap(const soilPlacement& other) const
+{
+    for (const placedRegions::placed& r : other.regions_)
+    {
+        for (label p = r.first; p < r.last; ++p)
+        {
+            const point x(other.soil_.position(p));
+            const label cell = other.soil_.points().cell()[p];
+            const label own = regions_.find(x, soil_.grid().meshCell(cell));
+            if (own < 0) continue;
+
+            FatalIOErrorInFunction(r.dict)
+                << "region " << r.dict.dictName() << " of the cloud "
+                << other.soil_.name() << " overlaps the region "
+                << regions_.begin()[own].dict.dictName() << " of the cloud "
+                << soil_.name() << " at " << x << '.' << nl
+                << "    Allowed: regions of solids that do not overlap"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::mpm::soilPlacement::findWeights
+(
+    const UPtrList<soilPlacement>& solids
+)
+{
+    solids_ = &solids;
     weights_.clear();
     for (const placedRegions::placed& r : regions_)
     {
         weights_.append(effectiveWeight(r.dict));
         checkStiffness(r, weights_.last());
     }
+}
+
+
+void Foam::mpm::soilPlacement::setState(const placedRegions* inWater)
+{
     for (const placedRegions::placed& r : regions_)
     {
         const autoPtr<initialStress> stress(initialStress::New(r.dict, *this));

@@ -9,7 +9,10 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::mpm::waterPlacement::findSoundSpeed(const soilPlacement* soil)
+void Foam::mpm::waterPlacement::findSoundSpeed
+(
+    const UPtrList<soilPlacement>& solids
+)
 {
     scalar surface = -GREAT, landing = GREAT;
     for (const placedRegions::placed& r : regions_)
@@ -17,11 +20,12 @@ void Foam::mpm::waterPlacement::findSoundSpeed(const soilPlacement* soil)
         surface = max(surface, r.level);
         landing = min(landing, r.level);
     }
-    water_.findSoundSpeed
-    (
-        surface, landing,
-        soil && !soil->soil().model().held() ? &soil->soil() : nullptr
-    );
+    DynamicList<materialPointCloud*> moving;
+    for (const soilPlacement& s : solids)
+    {
+        if (!s.soil().model().held()) moving.append(&s.soil());
+    }
+    water_.findSoundSpeed(surface, landing, moving);
 }
 
 
@@ -50,9 +54,12 @@ Foam::mpm::waterPlacement::waterPlacement
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::mpm::waterPlacement::setState(soilPlacement* soil)
+void Foam::mpm::waterPlacement::setState
+(
+    const UPtrList<soilPlacement>& solids
+)
 {
-    findSoundSpeed(soil);
+    findSoundSpeed(solids);
 
     const vector& up = regions_.up();
     scalar top = -GREAT, bottom = GREAT;
@@ -80,11 +87,12 @@ void Foam::mpm::waterPlacement::setState(soilPlacement* soil)
         {
             const point x(water_.position(r.first + i));
             p[i] = start->pressure(x);
-            if (!soil) continue;
-
             // Regions may overlap where no point of soil is
             const label cell = water_.points().cell()[r.first + i];
-            V[i] *= soil->porosity(x, water_.grid().meshCell(cell));
+            for (const soilPlacement& s : solids)
+            {
+                V[i] *= s.porosity(x, water_.grid().meshCell(cell));
+            }
         }
         water_.setState(r.first, V, p);
         forAll(p, i)

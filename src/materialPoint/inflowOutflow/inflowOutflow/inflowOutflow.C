@@ -15,7 +15,7 @@ void Foam::mpm::inflowOutflow::makeInlets
     const dictionary& dict,
     const volVectorField& U,
     const vector& g,
-    const bool soil
+    const bool solid
 )
 {
     const dictionary all(subDictOrEmpty(dict, "inlets"));
@@ -28,7 +28,7 @@ void Foam::mpm::inflowOutflow::makeInlets
         const dictionary& entries = subDictOf(all, names[i]);
         inlets_.set
         (
-            i, new inlet(names[i], entries, grid_, U, g, soil, strict_)
+            i, new inlet(names[i], entries, grid_, U, g, solid, strict_)
         );
 
         bool twice = false;
@@ -153,7 +153,7 @@ Foam::mpm::inflowOutflow::inflowOutflow
     const backgroundGrid& grid,
     const volVectorField& U,
     const vector& g,
-    const bool soil,
+    const bool solid,
     const bool strictKeywords
 )
 :
@@ -165,8 +165,17 @@ Foam::mpm::inflowOutflow::inflowOutflow
     checkKeywords(dict, {"inlets", "outlets", "recycle"}, strictKeywords);
 
     waiting_.reset(new waitingZone(readSwitchOrDefault(dict, "recycle", true)));
-    makeInlets(dict, U, g, soil);
+    makeInlets(dict, U, g, solid);
     makeOutlets(dict, U);
+    for (const outlet& out : outlets_)
+    {
+        if (!solid || !(out.waterLevel() > -GREAT)) continue;
+        FatalIOErrorInFunction(out.dict())
+            << "keyword waterLevel of outlet " << out.name()
+            << " has no meaning for " << U.name() << ": its cloud is solid."
+            << nl << "    Allowed: waterLevel in the cloud of role liquid"
+            << exit(FatalIOError);
+    }
     markCells();
     if (anyWaterLevel() && !(mag(g) > 0))
     {
@@ -184,7 +193,7 @@ Foam::autoPtr<Foam::mpm::inflowOutflow> Foam::mpm::inflowOutflow::New
     const backgroundGrid& grid,
     const volVectorField& U,
     const vector& g,
-    const bool soil,
+    const bool solid,
     const bool strictKeywords
 )
 {
@@ -194,7 +203,7 @@ Foam::autoPtr<Foam::mpm::inflowOutflow> Foam::mpm::inflowOutflow::New
     (
         new inflowOutflow
         (
-            subDictOf(cloudDict, "inflowOutflow"), grid, U, g, soil,
+            subDictOf(cloudDict, "inflowOutflow"), grid, U, g, solid,
             strictKeywords
         )
     );

@@ -269,7 +269,7 @@ Foam::mpm::inlet::inlet
     const backgroundGrid& grid,
     const volVectorField& U,
     const vector& g,
-    const bool soil,
+    const bool solid,
     const bool strictKeywords
 )
 :
@@ -294,7 +294,7 @@ Foam::mpm::inlet::inlet
         "patch", "velocity", "discharge", "base", "depth",
         "pointsPerDirection", "zoneCells"
     });
-    if (soil) known.append("voidRatio");
+    if (solid) known.append("voidRatio");
     checkKeywords(dict, known, strictKeywords);
 
     const polyBoundaryMesh& patches = grid.mesh().boundaryMesh();
@@ -327,7 +327,7 @@ Foam::mpm::inlet::inlet
     readFlow();
     findExtent(grid, patches[patchi], g);
 
-    if (soil && dict.found("voidRatio"))
+    if (solid && dict.found("voidRatio"))
     {
         voidRatio_ = readPositive(dict, "voidRatio", dimless);
         warnUnusual(dict, {{"voidRatio", 0.2, GREAT, "packings of grains"}});

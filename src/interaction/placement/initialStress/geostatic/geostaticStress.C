@@ -35,16 +35,19 @@ void Foam::mpm::geostaticStress::check(const scalar weight) const
     }
     if (dict_.found("level") || !Pstream::parRun()) return;
 
-    for (const placedRegions::placed& r : placement_.regions())
+    for (const soilPlacement& s : placement_.solids())
     {
-        if (!isA<cellZoneRegion>(*r.region)) continue;
+        for (const placedRegions::placed& r : s.regions())
+        {
+            if (!isA<cellZoneRegion>(*r.region)) continue;
 
-        FatalIOErrorInFunction(dict_)
-            << "keyword stress is geostatic, and a region is a cellZone:"
-            << " its cells that lie above may be on another rank." << nl
-            << "    Allowed: give the level of the surface, or run"
-            << " setMaterialPoints before decomposePar"
-            << exit(FatalIOError);
+            FatalIOErrorInFunction(dict_)
+                << "keyword stress is geostatic, and a region is a cellZone:"
+                << " its cells that lie above may be on another rank." << nl
+                << "    Allowed: give the level of the surface, or run"
+                << " setMaterialPoints before decomposePar"
+                << exit(FatalIOError);
+        }
     }
 }
 
@@ -117,7 +120,6 @@ Foam::mpm::geostaticStress::cover Foam::mpm::geostaticStress::findCover
     const vector& direction
 ) const
 {
-    const placedRegions& regions = placement_.regions();
     const scalar length = step(direction);
 
     cover above{scalarField(r.size()), -GREAT, GREAT, false};
@@ -132,10 +134,10 @@ Foam::mpm::geostaticStress::cover Foam::mpm::geostaticStress::findCover
             y += length*direction
         )
         {
-            const label region = regions.find(y, regions.cellAt(y));
-            if (region < 0) continue;
+            scalar here;
+            if (!placement_.weightAt(y, here)) continue;
 
-            weight += placement_.weights()[region]*length;
+            weight += here*length;
             top = (direction & y) + 0.5*length;
         }
         above.weight[i] = weight;

@@ -33,9 +33,7 @@ Foam::mpm::patchOutlet::patchOutlet
     patch_(-1),
     waterLevel_(-GREAT)
 {
-    wordList known({"type", "patch"});
-    if (U.name() == "U.water") known.append("waterLevel");
-    checkKeywords(dict, known, strictKeywords);
+    checkKeywords(dict, {"type", "patch", "waterLevel"}, strictKeywords);
 
     DynamicList<word> openings;
     for (const fvPatchVectorField& Up : U.boundaryField())
