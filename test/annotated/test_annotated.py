@@ -18,6 +18,7 @@ EXPLAINED_IN = {
     "src/interaction/dragModel": "materialPointProperties",
     "src/interaction/bedLoadModel": "materialPointProperties",
     "src/interaction/erosionCriterion": "controlDict",
+    "src/interaction/phasePair": "materialPointProperties",
     "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
     "src/backgroundGrid/nodeBoundary": "U.water",

@@ -409,3 +409,75 @@ def testOverlap(tmp_path, figures):
     case.run("blockMesh")
     refused(figures, case, ["region block of the cloud right overlaps",
                             "cloud left"])
+
+
+# --- pairs of phases ------------------------------------------------------
+
+def testPairs(tmp_path, figures):
+    """A pair by name is what the dictionary interaction alone is"""
+    usual = bank(interaction={"drag": "Gidaspow"}).steps(20).write(
+        tmp_path/"usual").prepare()
+    other = bank(interaction={"pairs": {"bed": {
+        "type": "liquidSkeleton", "clouds": ["soil", "water"],
+        "drag": "Gidaspow"}}}).steps(20).write(tmp_path/"other").prepare()
+    for case in usual, other:
+        case.solve()
+    figures.equal("files that differ", differing(usual, other, 20), [])
+    figures.holds("drag", "Gidaspow" in (
+        other.path/"log.mpmFoam").read_text())
+
+
+PAIR = {"type": "liquidSkeleton"}
+BAD_PAIRS = {
+    "unknown": ({"bed": {"type": "liquidGas"}},
+                ["pairs.bed", "keyword type", "liquidGas", "liquidSkeleton"]),
+    "no type": ({"bed": {}}, ["pairs.bed", "type"]),
+    "clouds": ({"bed": {**PAIR, "clouds": ["water", "sand"]}},
+               ["pairs.bed", "keyword clouds", "sand", "soil"]),
+    "one cloud": ({"bed": {**PAIR, "clouds": ["water"]}},
+                  ["pairs.bed", "keyword clouds", "soil"]),
+    "twice": ({"bed": PAIR, "again": PAIR},
+              ["keyword pairs has 2 pairs", "liquidSkeleton", "one"]),
+    "none": ({}, ["keyword pairs has 0 pairs", "liquidSkeleton", "one"]),
+    "misspelt": ({"bed": {**PAIR, "darg": "none"}},
+                 ["pairs.bed", "keyword darg", "Did you mean drag"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD_PAIRS)
+def testBadPairs(tmp_path, figures, name):
+    pairs, parts = BAD_PAIRS[name]
+    case = bank(interaction={"pairs": pairs}).write(tmp_path/"case")
+    case.run("blockMesh")
+    refused(figures, case, ["materialPointProperties", *parts])
+
+
+def testSeepageThroughLayers(tmp_path, figures):
+    """Two layers of grains of another size, one behind the other: all water
+    flows through both, driven by rho g n in each volume, and loses a = A mu
+    ns^2/(nw d^2) times its speed in each. Where they meet, over a cell or
+    two, the mean diameter is not that of either: of first order in h."""
+    A, mu, g, n = 150, 1e-3, 1.0, 0.7/1.7
+    d = {"left": 0.4e-3, "right": 0.8e-3}
+    rigid = {"constitutiveModel": "rigidSkeleton", "rigidSkeletonCoeffs": {
+        "rhoS": 2650, "d": 1e-3, "e0": 0.7}}
+    setup = Setup(
+        cells=(64, 4), h=0.005, points=2, energy=False, g=(g, 0, 0),
+        fluid={"soundSpeed": 5, "mu": mu},
+        regions={"all": box((0, 0), (0.32, 0.02))}, soilRegions={"any": {}},
+        soil={**rigid, "DruckerPragerCoeffs": None},
+        interaction={"drag": "DarcyForchheimer", "DarcyForchheimerCoeffs": {
+            "viscous": A, "inertial": 0}}).cyclic("x", "y").until(1)
+    solids = beside((0, 0), 0.16, (0.32, 0.02))
+    for regions in solids.values():
+        regions["block"].update(stress="none", saturated=False)
+    case = split(setup, solids, **{
+        k: {"rigidSkeletonCoeffs": {"d": v}} for k, v in d.items()})
+    case = case.write(tmp_path/"case").prepare()
+    case.solve()
+    a = [A*mu*(1 - n)**2/(n*v**2) for v in d.values()]
+    speed = 1000*g*n/np.mean(a)
+    water = CloudPoints(case, "water", case.times[-1])
+    figures.atMost("mean speed over that of Darcy: error",
+                   abs(np.average(water.U[:, 0], weights=water.mass)/speed
+                       - 1), 0.02)

@@ -116,3 +116,34 @@ def testSoilInTheSolver(libs, tmp_path, figures):
                 + 3*(xy**2 + xz**2 + yz**2))
     figures.atMost("largest q over qYield", q.max()/500, 1 + 1e-9)
     figures.atLeast("points that yield", np.sum(q > 499.9)/len(q), 0.2)
+
+
+def testPair(libs, tmp_path, figures):
+    """Grains and water of one speed each, without drag: their difference
+    decays with k (1/rho_w n + 1/rho_s n_s), their momentum stays"""
+    k, n, v, end = 1e4, 0.7/1.7, 0.1, 0.02
+    case = seepage(libs)
+    case.g = (0, 0, 0)
+    case.fluid["soundSpeed"] = 5
+    case.soil = {"constitutiveModel": "linearElastic", "linearElasticCoeffs": {
+        "rhoS": 2650, "d": 1e-3, "e0": 0.7, "E": 1e4, "nu": 0.2}}
+    case.soilRegions["bed"]["velocity"] = (v, 0, 0)
+    case.interaction = {"pairs": {
+        "bed": {"type": "liquidSkeleton", "drag": "none"},
+        "more": {"type": "linearExchange", "coefficient": k}}}
+    case.control.update(adjustTimeStep=False, deltaT=1e-4,
+                        writeControl="runTime")
+    case = case.until(end).write(tmp_path/"case").prepare()
+    case.solve()
+    points = {c: CloudPoints(case, c, case.times[-1])
+              for c in ["water", "soil"]}
+    grains = CloudPoints(case, "soil", "0")
+    momentum = sum((p.mass*p.U[:, 0]).sum() for p in points.values())
+    figures.atMost("momentum: relative change", abs(
+        momentum/(grains.mass.sum()*v) - 1), 1e-12)
+    rate = k*(1/(1000*n) + 1/(2650*(1 - n)))
+    difference = points["soil"].U[:, 0].mean() - points["water"].U[:, 0].mean()
+    figures.atMost("difference over that of exp(-rate t): error", abs(
+        difference/(v*np.exp(-rate*end)) - 1), rate*1e-4*rate*end)
+    figures.holds("the table of effects names it", "linearExchange" in
+                  (case.path/"log.mpmFoam").read_text())

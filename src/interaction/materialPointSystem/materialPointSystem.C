@@ -8,7 +8,7 @@ License
 #include "materialPointSystem.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
-#include "waterSoilInteraction.H"
+#include "phasePair.H"
 #include "functionNeeds.H"
 #include "phaseRole.H"
 #include "dictionaryEntries.H"
@@ -488,63 +488,36 @@ void Foam::mpm::materialPointSystem::makeClouds()
         }
     }
     // Checked in a scene with one phase, too
-    const word pressureForm
-    (
-        readChoiceOrDefault
-            (control_, "pressureForm", "gradient", {"gradient", "divergence"})
-    );
+    (void)readChoiceOrDefault
+        (control_, "pressureForm", "gradient", {"gradient", "divergence"});
     if (settings_.coupled)
     {
         for (soilCloud* solid : solids_) solid->setLiquid(*liquid_);
-        interaction_.reset
+        pairs_ = phasePair::NewAll
         (
-            new waterSoilInteraction
-            (
-                properties_,
-                settings_.strictKeywords,
-                pressureForm == "divergence",
-                *liquid_,
-                solids_,
-                cost_
-            )
+            phasePair::phases
+            {
+                *liquid_, solids_, properties_, control_,
+                settings_.strictKeywords, cost_
+            }
         );
     }
 }
 
 
-Foam::string Foam::mpm::materialPointSystem::solidNames() const
-{
-    string names(solids_[0]->name());
-    for (label i = 1; i < solids_.size(); ++i)
-    {
-        names += ", " + solids_[i]->name();
-    }
-    return names;
-}
-
-
 void Foam::mpm::materialPointSystem::logBed(const Time& runTime) const
 {
-    if (interaction_.valid())
-    {
-        const int64_t packed =
-            returnReduce(int64_t(interaction_->nPacked()), sumOp<int64_t>());
-        if (packed)
-        {
-            Info<< "--> " << solidNames().c_str() << ": " << packed
-                << " nodes with less than 10 % porosity; the soil is"
-                << " over-compacted there" << nl;
-        }
-    }
     // Where the surface of the bed has to be found for it, it costs half a step,
     // and the nodes have their sums at write times only
+    bool followed = false;
+    for (const phasePair& pair : pairs_)
+    {
+        followed = followed || pair.followsSurface();
+    }
     soilCloud::bedState bed{};
     if
     (
-        (
-            (interaction_.valid() && interaction_->followsSurface())
-         || runTime.writeTime()
-        )
+        (followed || runTime.writeTime())
      && solids_[0]->bed(bed) && bed.stress > 0
     )
     {
@@ -896,8 +869,14 @@ void Foam::mpm::materialPointSystem::reportEffects() const
 
     effectsTable table;
     for (const materialPointCloud& cloud : clouds_) cloud.effects(table);
-    if (interaction_.valid()) interaction_->effects(table);
-    else table.add("coupling", false, "one cloud");
+    for (const phasePair& pair : pairs_) pair.effects(table);
+    if (pairs_.empty())
+    {
+        table.add
+        (
+            "coupling", false, clouds_.size() == 1 ? "one cloud" : "no liquid"
+        );
+    }
     table.add
     (
         "body forces", forced_,
@@ -933,9 +912,10 @@ void Foam::mpm::materialPointSystem::reportEffects() const
             << " bytes per point, " << nodes/1e6 << " MB on nodes, mass "
             << cloud.globalMass() << " kg" << nl;
     }
-    if (interaction_.valid())
+    if (pairs_.size())
     {
-        scalar nodes = interaction_->memory();
+        scalar nodes = 0;
+        for (const phasePair& pair : pairs_) nodes += pair.memory();
         reduce(nodes, sumOp<scalar>());
         Info<< "    coupling: " << nodes/1e6 << " MB on nodes" << nl;
     }
@@ -1066,7 +1046,7 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
         solids_[0]->findStrainRates();
         cost_.stop();
     }
-    if (interaction_.valid()) interaction_->mixture();
+    for (phasePair& pair : pairs_) pair.startNodes();
     fieldsCurrent_ = false;
 }
 
@@ -1079,7 +1059,7 @@ void Foam::mpm::materialPointSystem::updateStress()
 
     // The pressure of the liquid acts on points of solids, too
     if (liquid_) liquid_->updateStress(deltaT);
-    if (interaction_.valid()) interaction_->keepWaterPressure();
+    for (phasePair& pair : pairs_) pair.afterLiquidStress();
     for (soilCloud* solid : solids_) solid->updateStress(deltaT);
 }
 
@@ -1088,9 +1068,9 @@ void Foam::mpm::materialPointSystem::updateNodes()
 {
     const scalar deltaT = time_.deltaTValue();
 
-    if (interaction_.valid()) interaction_->sharePressure();
+    for (phasePair& pair : pairs_) pair.addForces(deltaT);
     for (materialPointCloud& cloud : clouds_) cloud.updateNodes(deltaT);
-    if (interaction_.valid()) interaction_->applyDrag(deltaT);
+    for (phasePair& pair : pairs_) pair.exchangeMomentum(deltaT);
 
     // Last, so that nothing moves what friction holds
     for (materialPointCloud& cloud : clouds_) cloud.finishNodes(deltaT);
@@ -1111,7 +1091,7 @@ void Foam::mpm::materialPointSystem::gridToParticles()
             cost_.stop();
         }
     }
-    if (interaction_.valid()) interaction_->moveSurface(deltaT);
+    for (phasePair& pair : pairs_) pair.finishPoints(deltaT);
 }
 
 
@@ -1120,7 +1100,7 @@ void Foam::mpm::materialPointSystem::rebuild()
     stepsSinceRebuild_ = 1;
     grid_.rebuild();
     for (materialPointCloud& cloud : clouds_) cloud.rebuild();
-    if (interaction_.valid()) interaction_->rebuild();
+    for (phasePair& pair : pairs_) pair.rebuild();
 }
 
 
@@ -1240,6 +1220,7 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         }
     }
 
+    for (const phasePair& pair : pairs_) pair.log();
     if (solids_.size()) logBed(runTime);
     if (liquid_) logDensity();
     if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();

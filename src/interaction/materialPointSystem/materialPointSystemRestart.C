@@ -11,7 +11,7 @@ License
 #include "cloud.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
-#include "waterSoilInteraction.H"
+#include "phasePair.H"
 #include <algorithm>
 #include <fstream>
 #include <sys/statvfs.h>

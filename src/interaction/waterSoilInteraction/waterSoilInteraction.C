@@ -8,6 +8,7 @@ License
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "dictionaryEntries.H"
+#include "addToRunTimeSelectionTable.H"
 #include "debug.H"
 #include "PstreamReduceOps.H"
 #include "registerSwitch.H"
@@ -15,6 +16,15 @@ License
 #include <limits>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(waterSoilInteraction, 0);
+    addToRunTimeSelectionTable(phasePair, waterSoilInteraction, dictionary);
+}
+}
 
 int Foam::mpm::waterSoilInteraction::implicitDrag
 (
@@ -52,7 +62,7 @@ Foam::scalar Foam::mpm::waterSoilInteraction::waterVolume
 
 
 template<class Part>
-void Foam::mpm::waterSoilInteraction::exchangeMomentum
+void Foam::mpm::waterSoilInteraction::applyDrag
 (
     const scalar deltaT,
     const Part& keptPart
@@ -354,7 +364,7 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                 scalar speedSqr = 0;
                 for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
 
-                // Water has what soil has no share of (sharePressure)
+                // Water has what soil has no share of (addForces)
                 nodeVector push = water.mass(i)*gravity;
                 if (pressureInside_[i][3] > 0)
                 {
@@ -416,23 +426,24 @@ void Foam::mpm::waterSoilInteraction::makeNodes()
 
 Foam::mpm::waterSoilInteraction::waterSoilInteraction
 (
-    const dictionary& properties,
-    const bool strictKeywords,
-    const bool divergenceForm,
-    waterCloud& water,
-    const List<soilCloud*>& solids,
-    costMeter& cost
+    const dictionary& dict,
+    const phases& all
 )
 :
-    grid_(water.grid()),
-    water_(water),
-    solids_(solids),
-    soil_(*solids[0]),
+    grid_(all.liquid.grid()),
+    water_(all.liquid),
+    solids_(all.solids),
+    soil_(*solids_[0]),
     mixedGrains_(soil_.grains().grainsDiffer() ? &soil_.grains() : nullptr),
-    cost_(cost),
-    divergenceForm_(divergenceForm),
+    cost_(all.cost),
+    divergenceForm_
+    (
+        readChoiceOrDefault
+            (all.control, "pressureForm", "gradient", {"gradient", "divergence"})
+     == "divergence"
+    ),
     implicitDrag_(implicitDrag),
-    fields_(water.boundary().inverseVolume()),
+    fields_(water_.boundary().inverseVolume()),
     nPacked_(0),
     bedState_{0, 0},
     bedStep_(-1)
@@ -446,28 +457,29 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
 
     drag_ = dragModel::New
     (
-        subDictOrEmpty(properties, "interaction"),
+        dict,
         dragModel::medium
         {
-            soil_.model().d(), water.fluid().mu(), water.fluid().rho0()
+            soil_.model().d(), water_.fluid().mu(), water_.fluid().rho0()
         },
-        strictKeywords
+        all.strictKeywords
     );
 
     for (const soilCloud* solid : solids_)
     {
         const scalar rhoS = solid->model().rhoS();
-        if (rhoS > water.fluid().rho0()) continue;
+        if (rhoS > water_.fluid().rho0()) continue;
 
-        IOWarningInFunction(properties)
+        IOWarningInFunction(all.properties)
             << "keyword rhoS of the " << solid->name() << " is " << rhoS
-            << ", rho0 of the " << water.name() << ' ' << water.fluid().rho0()
+            << ", rho0 of the " << water_.name() << ' '
+            << water_.fluid().rho0()
             << " kg/m3: the grains float." << nl
             << "    Usual: rhoS > rho0 (rhoS is of the solid, without pores)"
             << nl << endl;
     }
 
-    readBedLoad(properties, strictKeywords);
+    readBedLoad(all.properties, all.strictKeywords);
 
     makeNodes();
 }
@@ -485,7 +497,7 @@ void Foam::mpm::waterSoilInteraction::rebuild()
 }
 
 
-void Foam::mpm::waterSoilInteraction::mixture()
+void Foam::mpm::waterSoilInteraction::startNodes()
 {
     cost_.start("coupling");
 
@@ -582,7 +594,7 @@ void Foam::mpm::waterSoilInteraction::mixture()
 }
 
 
-void Foam::mpm::waterSoilInteraction::keepWaterPressure()
+void Foam::mpm::waterSoilInteraction::afterLiquidStress()
 {
     if (!divergenceForm_) return;
 
@@ -604,7 +616,7 @@ void Foam::mpm::waterSoilInteraction::keepWaterPressure()
 }
 
 
-void Foam::mpm::waterSoilInteraction::sharePressure()
+void Foam::mpm::waterSoilInteraction::addForces(const scalar)
 {
     cost_.start("coupling");
 
@@ -676,7 +688,7 @@ void Foam::mpm::waterSoilInteraction::sharePressure()
 }
 
 
-void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
+void Foam::mpm::waterSoilInteraction::exchangeMomentum(const scalar deltaT)
 {
     if (!drag_->active()) return;
 
@@ -722,7 +734,7 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
 
     if (implicitDrag_)
     {
-        exchangeMomentum
+        applyDrag
         (
             deltaT,
             [&](const scalar factor, const label k)
@@ -739,7 +751,7 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
     }
     else
     {
-        exchangeMomentum
+        applyDrag
         (
             deltaT,
             [&](const scalar factor, const label k)
@@ -763,10 +775,22 @@ void Foam::mpm::waterSoilInteraction::applyDrag(const scalar deltaT)
 }
 
 
-void Foam::mpm::waterSoilInteraction::moveSurface(const scalar deltaT)
+void Foam::mpm::waterSoilInteraction::finishPoints(const scalar deltaT)
 {
     if (!surface_.valid()) return;
     soil_.slip(deltaT, surface_->stress(), surface_->normal(), *bedLoad_);
+}
+
+
+void Foam::mpm::waterSoilInteraction::log() const
+{
+    const int64_t packed = returnReduce(int64_t(nPacked_), sumOp<int64_t>());
+    if (!packed) return;
+
+    Info<< "--> ";
+    forAll(solids_, i) Info<< (i ? ", " : "") << solids_[i]->name();
+    Info<< ": " << packed << " nodes with less than 10 % porosity; the soil is"
+        << " over-compacted there" << nl;
 }
 
 
