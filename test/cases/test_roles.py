@@ -152,6 +152,29 @@ def testTwoCloudsAreOne(tmp_path, figures, name, transfer):
         waterToo(figures, two, one)
 
 
+def testTwoCloudsAreOne3D(tmp_path, figures):
+    """With cubic shape functions, water that runs in, and walls with
+    friction"""
+    lower, upper = (0.06, 0, 0), (0.18, 0.12, 0.06)
+    one = Setup(
+        cells=(12, 6, 6), h=0.02, points=2, energy=False,
+        mpm={"shapeFunction": "cubicBSpline"},
+        regions={"wave": hydrostatic((0, 0, 0), (0.1, 0.12, 0.1))},
+        soilRegions={"block": box(lower, upper, stress="geostatic")},
+        soilWall=FRICTIONAL,
+        control={"libs": '("libmpmBackgroundGrid.so")'}).steps(30)
+    solids = {"left": {"block": box(lower, (0.12, 0.12, 0.06),
+                                    stress="geostatic")},
+              "right": {"block": box((0.12, 0, 0), upper,
+                                     stress="geostatic")}}
+    two = split(one, solids).write(tmp_path/"two").prepare()
+    one = one.write(tmp_path/"one").prepare()
+    for case in one, two:
+        case.solve()
+    same(figures, two, one, solids, SOIL_FIELDS)
+    waterToo(figures, two, one)
+
+
 @pytest.mark.parametrize("scene", [column, bank])
 def testGrainsThatDiffer(tmp_path, figures, scene):
     """By so little that it is as if they did not: solid volume, diameter and

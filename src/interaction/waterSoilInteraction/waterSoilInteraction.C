@@ -40,18 +40,6 @@ static Foam::RegisterSwitch<int> addImplicitDrag
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::mpm::waterSoilInteraction::solidVolume
-(
-    const label node
-) const
-{
-    return
-        mixedGrains_
-      ? mixedGrains_->solidVolume(node)
-      : soil_.nodes().mass(node)/soil_.model().rhoS();
-}
-
-
 Foam::scalar Foam::mpm::waterSoilInteraction::waterVolume
 (
     const label node
@@ -393,6 +381,17 @@ void Foam::mpm::waterSoilInteraction::makeNodes()
     mean_.clear();
     touching_.clear();
 
+    solid_ = &soil_.nodes().momentum;
+    solidSlot_ = grid_.nDim();
+    solidDensity_ = soil_.model().rhoS();
+    if (mixedGrains_)
+    {
+        solidOfMixed_.assign(grid_.nNodes(), nodeVector{});
+        solid_ = &solidOfMixed_;
+        solidSlot_ = 0;
+        solidDensity_ = 1;
+    }
+
     water_.couple(fields_, water_.boundary());
     for (soilCloud* solid : solids_)
     {
@@ -528,6 +527,16 @@ void Foam::mpm::waterSoilInteraction::startNodes()
         }
     );
     findReach();
+    if (mixedGrains_)
+    {
+        fields_.forNodes
+        (
+            [&](const label i)
+            {
+                solidOfMixed_[i][0] = mixedGrains_->solidVolume(i);
+            }
+        );
+    }
     fields_.forNodes
     (
         [&](const label i)
