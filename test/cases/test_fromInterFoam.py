@@ -245,7 +245,7 @@ def _started(case):
     ("laminar/damBreak/damBreak", 6.46099e-4, "0.002",
      ["noSlip becomes slip", "surface tension", "sampleSets"]),
     ("RAS/weirOverflow", 369.65, "0.02",
-     ["75 m3/s are 75 m2/s", "kEpsilon", "become steps"]),
+     ["75 m3/s are 75 m2/s", "kEpsilon", "become steps", "inletWall"]),
 ])
 def testTutorials(tmp_path, figures, name, water, steps, notes):
     done = call("interFoamToMpmFoam", openFoamTutorial(name), tmp_path/"new")

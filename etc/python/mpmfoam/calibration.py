@@ -3,7 +3,6 @@ through soilElementTest: see docs/howto/ownSand.md."""
 
 import math
 import os
-import re
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -45,6 +45,11 @@ class Run:
                       if (self.path/t/self.alphaName).is_file()]
         self._cache = {}
 
+    @property
+    def cpuPerSecond(self):
+        """One of the two may have been ended earlier"""
+        return self.log.cpuTime/self.log.time
+
     def alpha(self, time):
         if time not in self._cache:
             self._cache[time] = np.clip(foamFile.readInternalField(
@@ -58,11 +63,19 @@ class Run:
     def volume(self, time):
         return float((self.alpha(time)*self.mesh.volumes).sum())
 
-    def energy(self, time, lowest):
-        """Kinetic, and potential above the lowest point of the mesh [J]"""
-        v = self.alpha(time)*self.mesh.volumes*self.rho
-        return (float((0.5*v*(self.velocity(time)**2).sum(axis=1)).sum()),
-                float(-(v*((self.mesh.centres - lowest) @ self.g)).sum()))
+    def energy(self, time):
+        """Kinetic, and potential above that of the same volume at rest in the
+        lowest cells [J]"""
+        mesh = self.mesh
+        height = -(mesh.centres @ self.g)
+        v = self.alpha(time)*mesh.volumes
+        order = np.argsort(height)
+        room = mesh.volumes[order]
+        rest = np.clip(v.sum() - np.cumsum(room) + room, 0, room)
+        return (self.rho*float((0.5*v*(self.velocity(time)**2).sum(
+                    axis=1)).sum()),
+                self.rho*float((v*height).sum()
+                               - (rest*height[order]).sum()))
 
 
 class Sampler:
@@ -147,27 +160,22 @@ class Comparison:
         return depth.mean(axis=left.index(self.across))
 
     def front(self, run, time):
-        """Farthest place along where a layer of half water reaches"""
-        x, _, values = self.slice(run, time)
-        wet = np.nan_to_num(values) >= 0.5
-        any = np.nonzero(wet.any(axis=0))[0]
-        if not len(any):
+        """Farthest place along of the contour alpha = 0.5, in all of the
+        tank"""
+        x = self.axes[self.along]
+        values = np.nan_to_num(self.sampled(run, time))
+        rows = np.moveaxis(values, 2 - self.along, -1).reshape(-1, len(x))
+        wet = rows >= 0.5
+        places = np.nonzero(wet.any(axis=0))[0]
+        if not len(places):
             return self.low[self.along]
-        i = any[-1]
+        i = places[-1]
         if i + 1 == len(x):
             return self.high[self.along]
-        a = np.nan_to_num(values)
-        best = x[i]
-        for row in np.nonzero(wet[:, i])[0]:
-            p, q = a[row, i], a[row, i + 1]
-            if p > q:
-                best = max(best, x[i] + (x[i + 1] - x[i])*(p - 0.5)/(p - q))
-        return best
+        p, q = rows[wet[:, i], i], rows[wet[:, i], i + 1]
+        return x[i] + (x[i + 1] - x[i])*float(((p - 0.5)/(p - q)).max())
 
     def _series(self):
-        lowest = self.low.copy()
-        if self.mpm.g[self.up] > 0:
-            lowest = self.high
         x = self.axes[self.along]
         self.series = {}
         for run, k in [(self.mpm, 0), (self.inter, 1)]:
@@ -178,7 +186,7 @@ class Comparison:
                 depth = self.depths(run, time)
                 s["front"].append(self.front(run, time))
                 s["volume"].append(run.volume(time))
-                kinetic, potential = run.energy(time, lowest)
+                kinetic, potential = run.energy(time)
                 s["kinetic"].append(kinetic)
                 s["potential"].append(potential)
                 s["profile"].append(depth)
@@ -201,6 +209,8 @@ class Comparison:
             difference = (a["front"] - b["front"])[free]/reach[free]
             out["frontDifferenceMax"] = float(np.abs(difference).max())
             out["frontDifferenceMean"] = float(difference.mean())
+            out["frontDifferenceMaxLength"] = float(np.abs(
+                (a["front"] - b["front"])[free]).max())
         deepest = max(b["profile"].max(), 1e-300)
         out["profileDifferenceRms"] = float(np.sqrt(np.mean(
             (a["profile"] - b["profile"])**2))/deepest)
@@ -214,19 +224,21 @@ class Comparison:
                 a["gauges"][last, i].mean())
             out[f"gauge{i}LastThirdMean_interFoam"] = float(
                 b["gauges"][last, i].mean())
-        start = b["kinetic"][0] + b["potential"][0]
         for name, s in [("mpmFoam", a), ("interFoam", b)]:
             total = s["kinetic"] + s["potential"]
-            out[f"energyEnd_{name}"] = float(total[-1]/max(start, 1e-300))
+            out[f"energyStart_{name}"] = float(total[0])
+            out[f"energyEnd_{name}"] = float(total[-1])
             out[f"volumeEnd_{name}"] = float(s["volume"][-1])
         out["volumeDifferenceMax"] = float(np.abs(
             a["volume"]/np.maximum(b["volume"], 1e-300) - 1).max())
         out["length"] = float(length)
         for run, name in [(self.mpm, "mpmFoam"), (self.inter, "interFoam")]:
             out[f"cpuTime_{name}"] = run.log.cpuTime
+            out[f"cpuPerSimulatedSecond_{name}"] = run.cpuPerSecond
             out[f"cells_{name}"] = run.mesh.nCells
             out[f"steps_{name}"] = run.log.stepCount
-        out["timeOverInterFoam"] = self.mpm.log.cpuTime/self.inter.log.cpuTime
+        out["timeOverInterFoam"] = \
+            self.mpm.cpuPerSecond/self.inter.cpuPerSecond
         return out
 
     def table(self):
@@ -296,17 +308,17 @@ class Comparison:
         a[0, 0].set(xlabel="time [s]",
                     ylabel=f"front along {names[self.along]} [m]")
         a[0, 1].set(xlabel="time [s]", ylabel="depth at gauges [m]")
-        a[1, 0].set(xlabel="time [s]", ylabel="energy [J]")
+        a[1, 0].set(xlabel="time [s]", ylabel="energy above rest [J]")
         for ax in (a[0, 0], a[0, 1], a[1, 0]):
             ax.legend(fontsize=7)
-        times = [r.log.cpuTime for r, *_ in runs]
+        times = [r.cpuPerSecond for r, *_ in runs]
         a[1, 1].barh([n for *_, n in runs], times,
                      color=[c for _, _, c, _ in runs])
         for i, (run, *_) in enumerate(runs):
-            a[1, 1].text(0.02*max(times), i, f"{times[i]:.3g} s, "
+            a[1, 1].text(0.02*max(times), i, f"{times[i]:.3g}, "
                          f"{run.mesh.nCells} cells", va="center", fontsize=8,
                          bbox=dict(fc="white", ec="none", alpha=0.7, pad=1))
-        a[1, 1].set(xlabel="CPU time [s]")
+        a[1, 1].set(xlabel="CPU time per simulated time")
         style.save(fig, path)
 
 

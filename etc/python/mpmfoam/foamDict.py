@@ -34,7 +34,8 @@ def _tokens(text, path):
         found = _TOKEN.match(text, pos)
         # "name(": a word never swallows a bracket that opens a list
         if not found:
-            raise FoamFileError(f"{path}: not readable at '{text[pos:pos+20]}'")
+            raise FoamFileError(
+                f"{path}: not readable at '{text[pos:pos+20]}'")
         pos = found.end()
         kind = found.lastgroup
         if kind:
@@ -49,7 +50,8 @@ class _Parser:
 
     def next(self):
         if self.pos == len(self.tokens):
-            raise FoamFileError(f"{self.path}: ends within a dictionary or list")
+            raise FoamFileError(
+                f"{self.path}: ends within a dictionary or list")
         self.pos += 1
         return self.tokens[self.pos - 1]
 

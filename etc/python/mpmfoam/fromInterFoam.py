@@ -465,6 +465,12 @@ class Conversion:
                 distance = (np.maximum(gap, 0)**2).sum(axis=2)
                 best = np.argmin(distance, axis=1)
                 out[mine] = number[candidates[np.arange(len(best)), best]]
+        names = [p.name for p in mesh.patches]
+        for k, (name, (g, base, top)) in enumerate(self.rest.items()):
+            half = 0.5*self.lattice.h[g]
+            beyond = (centres[:, g] - half > top - 1e-6*half) | (
+                centres[:, g] + half < base + 1e-6*half)
+            out[(out == names.index(name)) & beyond] = len(names) + k
         return out
 
     # --- boundary conditions ----------------------------------------------
@@ -477,6 +483,8 @@ class Conversion:
                       if (inter.work/inter.time/n).is_file()), None)
         p = inter.boundary(pName) if pName else {}
         self.types, self.conditions, self.inlets = {}, {}, {}
+        # Inlets that are lower than their patch: the rest is a wall
+        self.rest = {}
         path = inter.case/inter.time/"U"
         end = inter.control.number("endTime")
         nu = inter.mu/inter.rho
@@ -520,6 +528,9 @@ class Conversion:
                     ("noSlip", "slip") + OPENINGS + INLETS)))
                     + "; others cannot be carried over")
             self.conditions[patch.name] = condition
+        for name in self.rest:
+            self.types[f"{name}Wall"] = {"type": "wall"}
+            self.conditions[f"{name}Wall"] = {"type": "slip"}
 
     def _wall(self, patch, kind, layer):
         if layer > 2*self.h:
@@ -609,6 +620,10 @@ class Conversion:
             top = self.lattice.snap(max(heights[1]), g, self.parts)
             depth = top - base
             out["base"], out["depth"] = float(base), float(depth)
+            if lower[g] < base - 0.5*self.h or upper[g] > top + 0.5*self.h:
+                self.rest[patch.name] = (g, base, top)
+                self.note("changed", f"{patch.name}: above and below the "
+                          f"inlet it becomes a wall, {patch.name}Wall")
             self.note("changed", f"{patch.name}: the water enters between "
                       f"{base:.4g} and {top:.4g} m, its level at the start; "
                       "in interFoam the level at the inlet may change")
@@ -759,12 +774,12 @@ class Conversion:
         (target/"system").mkdir(parents=True, exist_ok=True)
         (target/"0.orig").mkdir(exist_ok=True)
         (target/"constant").mkdir(exist_ok=True)
-        faces = self.lattice.write(
-            target, [p.name for p in inter.mesh.patches], self.types,
-            self._patchOf)
+        names = [p.name for p in inter.mesh.patches]
+        names += [f"{name}Wall" for name in self.rest]
+        faces = self.lattice.write(target, names, self.types, self._patchOf)
         for name, count in faces.items():
-            before = next(p.size for p in inter.mesh.patches
-                          if p.name == name)
+            before = next((p.size for p in inter.mesh.patches
+                           if p.name == name), 0)
             if before and not count:
                 self.note("left behind", f"patch {name}: no face is left of "
                           "it on this lattice")

@@ -12,7 +12,7 @@ from .foamFile import FoamFileError
 
 def run(path, coefficients, tests, model="elastoplasticMuI", controlDict=None):
     """Run tests (name -> entries, as text) on a soil (keyword -> value) in the
-    directory path; name -> columns of postProcessing/soilElementTest/<name>.csv.
+    directory path; name -> columns of its CSV.
     controlDict: that of a case, whose libs may have the model"""
     path = Path(path)
     for part in ["constant", "system"]:
