@@ -108,7 +108,9 @@ class Setup:
     wall     condition of U.water on the patch walls
     points   per cell and direction
     energy   with the function object materialPointEnergy, each 10 steps
-    soilRegions  with a cloud soil; without regions of water it is alone"""
+    soilRegions  with a cloud soil; without regions of water it is alone
+    bodies   as in materialPointProperties
+    surfaces  file in constant/triSurface -> its text"""
     cells: tuple
     h: object
     regions: dict
@@ -130,6 +132,8 @@ class Setup:
     soilWall: object = "noSlip"
     interaction: dict = field(default_factory=lambda: {
         "drag": "DarcyForchheimer"})
+    bodies: dict = field(default_factory=dict)
+    surfaces: dict = field(default_factory=dict)
 
     # Name of the cloud of water
     liquid = "water"
@@ -190,6 +194,10 @@ class Setup:
     # The files, as dictionaries
 
     def properties(self):
+        bodies = {"bodies": self.bodies} if self.bodies else {}
+        return {**self.cloudProperties(), **bodies}
+
+    def cloudProperties(self):
         fluid = {"rho0": RHO, "mu": 1e-3, "soundSpeed": "auto", "gamma": 7}
         merge(fluid, self.fluid)
         water = {"constitutiveModel": "weaklyCompressibleNewtonian",
@@ -351,6 +359,10 @@ class Setup:
         for name, text in self.files().items():
             (path/name).parent.mkdir(parents=True, exist_ok=True)
             (path/name).write_text(text)
+        for name, text in self.surfaces.items():
+            file = path/"constant"/"triSurface"/name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
         return self.caseAt(path)
 
     def caseAt(self, path):

@@ -140,6 +140,14 @@ void Foam::mpm::nodeBoundary::rebuild
 
     tiles_.reset(new nodeTiles(*folding_, zoneOfCell));
     findControlVolumes();
+    for (nodeConstraint* c : further_) c->place();
+}
+
+
+void Foam::mpm::nodeBoundary::add(nodeConstraint& further)
+{
+    further_.push_back(&further);
+    further.place();
 }
 
 
@@ -208,12 +216,17 @@ void Foam::mpm::nodeBoundary::constrain
     {
         c.constrain(velocity, homogeneous);
     }
+    for (const nodeConstraint* c : further_)
+    {
+        c->constrain(velocity, homogeneous);
+    }
 }
 
 
-void Foam::mpm::nodeBoundary::start(const nodeMotion& nodes)
+void Foam::mpm::nodeBoundary::start(nodeMotion& nodes)
 {
     for (nodeConstraint& c : constraints_) c.start(nodes);
+    for (nodeConstraint* c : further_) c->start(nodes);
 }
 
 
@@ -233,9 +246,17 @@ void Foam::mpm::nodeBoundary::relieve
 }
 
 
+void Foam::mpm::nodeBoundary::react(nodeMotion& nodes)
+{
+    for (nodeConstraint& c : constraints_) c.react(nodes);
+    for (nodeConstraint* c : further_) c->react(nodes);
+}
+
+
 void Foam::mpm::nodeBoundary::finish(const scalar deltaT, nodeMotion& nodes)
 {
     for (nodeConstraint& c : constraints_) c.finish(deltaT, nodes);
+    for (nodeConstraint* c : further_) c->finish(deltaT, nodes);
 }
 
 

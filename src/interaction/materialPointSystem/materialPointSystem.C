@@ -8,6 +8,7 @@ License
 #include "materialPointSystem.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
+#include "bodies.H"
 #include "phasePair.H"
 #include "functionNeeds.H"
 #include "phaseRole.H"
@@ -331,6 +332,7 @@ void Foam::mpm::materialPointSystem::checkDictionaries
     const string clouds("clouds is (" + joined(names) + ").\n    Allowed: ");
     wordList known(names);
     known.append("clouds");
+    known.append("bodies");
     if (settings_.coupled) known.append("interaction");
 
     for (const entry& e : properties_)
@@ -587,6 +589,30 @@ void Foam::mpm::materialPointSystem::logImpacts() const
 }
 
 
+void Foam::mpm::materialPointSystem::makeBodies()
+{
+    if (!properties_.found("bodies")) return;
+
+    wordList names(clouds_.size());
+    forAll(names, i) names[i] = clouds_[i].name();
+    bodies_.reset
+    (
+        new bodies
+        (
+            grid_, subDictOf(properties_, "bodies"), names,
+            settings_.strictKeywords
+        )
+    );
+    if (!bodies_->size())
+    {
+        bodies_.clear();
+        return;
+    }
+    bodies_->start(time_.value());
+    for (materialPointCloud& cloud : clouds_) cloud.addBodies(*bodies_);
+}
+
+
 void Foam::mpm::materialPointSystem::findFieldControls()
 {
     functionNeeds::forAllFunctions
@@ -763,7 +789,15 @@ Foam::scalar Foam::mpm::materialPointSystem::limitDeltaT()
         flowSpeed_ = max(flowSpeed_, speed);
         signalSpeed_ = max(signalSpeed_, cloud.waveSpeed() + speed);
     }
-    return limits_->smallest(limiter_);
+    const scalar limit = limits_->smallest(limiter_);
+    if (!bodies_.valid() || !bodies_->anyMoves()) return limit;
+
+    // The water that it pushes is not as fast yet
+    const scalar speed = bodies_->maxSpeed();
+    const scalar h = grid_.cells().minSpacing();
+    if (speed*limit <= h) return limit;
+    limiter_ = "body speed";
+    return h/speed;
 }
 
 
@@ -787,6 +821,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     control_(subDictOrEmpty(mesh.solutionDict(), "MPM")),
     grid_(mesh, control_),
     liquid_(nullptr),
+    bodiesMoved_(false),
     forced_(false),
     relaxed_(false),
     limiter_("none"),
@@ -805,6 +840,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     readSettings();
     readGravity();
     makeClouds();
+    makeBodies();
     readForces();
     findFieldControls();
     findWriteIntervals();
@@ -877,6 +913,19 @@ void Foam::mpm::materialPointSystem::reportEffects() const
             "coupling", false, clouds_.size() == 1 ? "one cloud" : "no liquid"
         );
     }
+    OStringStream names;
+    for (label b = 0; bodies_.valid() && b < bodies_->size(); ++b)
+    {
+        names
+            << (b ? ", " : "") << (*bodies_)[b].name() << " ("
+            << (*bodies_)[b].motion().type() << ')';
+    }
+    table.add
+    (
+        "bodies", bodies_.valid(),
+        bodies_.valid()
+      ? string(names.str()) : string("materialPointProperties/bodies")
+    );
     table.add
     (
         "body forces", forced_,
@@ -1039,6 +1088,13 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
     {
         rebuild();
     }
+    if (bodiesMoved_)
+    {
+        cost_.start("bodies: geometry");
+        for (materialPointCloud& cloud : clouds_) cloud.placeBodies();
+        cost_.stop();
+        bodiesMoved_ = false;
+    }
     for (materialPointCloud& cloud : clouds_) cloud.particlesToGrid();
     if (solids_.size())
     {
@@ -1056,6 +1112,7 @@ void Foam::mpm::materialPointSystem::updateStress()
     const scalar deltaT = time_.deltaTValue();
 
     setForces(deltaT);
+    if (bodies_.valid()) bodies_->findVelocities(time_.value(), deltaT);
 
     // The pressure of the liquid acts on points of solids, too
     if (liquid_) liquid_->updateStress(deltaT);
@@ -1074,6 +1131,32 @@ void Foam::mpm::materialPointSystem::updateNodes()
 
     // Last, so that nothing moves what friction holds
     for (materialPointCloud& cloud : clouds_) cloud.finishNodes(deltaT);
+    if (bodies_.valid() && bodies_->anyPushed()) pushBodies(deltaT);
+}
+
+
+void Foam::mpm::materialPointSystem::pushBodies(const scalar deltaT)
+{
+    cost_.start("bodies: motion");
+    const scalar time = time_.value() - 0.5*deltaT;
+    const vector g
+    (
+        gravityInTime_.valid() ? gravityInTime_->value(time) : g_
+    );
+    for (label b = 0; b < bodies_->size(); ++b)
+    {
+        bodyMotion& motion = (*bodies_)[b].motion();
+        if (!motion.pushed()) continue;
+
+        scalar impulse[6] = {}, resistance[36] = {};
+        for (const materialPointCloud& cloud : clouds_)
+        {
+            cloud.pushBody(b, deltaT, impulse, resistance);
+        }
+        motion.react(deltaT, g, impulse, resistance);
+    }
+    for (materialPointCloud& cloud : clouds_) cloud.followBodies(deltaT);
+    cost_.stop();
 }
 
 
@@ -1092,6 +1175,11 @@ void Foam::mpm::materialPointSystem::gridToParticles()
         }
     }
     for (phasePair& pair : pairs_) pair.finishPoints(deltaT);
+    if (bodies_.valid() && bodies_->anyMoves())
+    {
+        bodies_->move(time_.value(), deltaT);
+        bodiesMoved_ = true;
+    }
 }
 
 
@@ -1208,6 +1296,12 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
             << ", max speed " << cloud.globalMaxSpeed() << " m/s";
         if (left) Info<< ", left through openings " << left;
         if (contacts) Info<< ", put back from walls " << contacts;
+        if (bodies_.valid())
+        {
+            const int64_t out =
+                returnReduce(cloud.nPutOut(), sumOp<int64_t>());
+            if (out) Info<< ", put out of bodies " << out;
+        }
         Info<< nl;
         if (cloud.openBoundaries())
         {
@@ -1220,6 +1314,16 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
         }
     }
 
+    for (label b = 0; bodies_.valid() && b < bodies_->size(); ++b)
+    {
+        Info<< "body " << (*bodies_)[b].name() << ':';
+        for (const materialPointCloud& cloud : clouds_)
+        {
+            Info<< " force of " << cloud.name() << ' '
+                << cloud.loadOn(b).force << " N";
+        }
+        Info<< nl;
+    }
     for (const phasePair& pair : pairs_) pair.log();
     if (solids_.size()) logBed(runTime);
     if (liquid_) logDensity();

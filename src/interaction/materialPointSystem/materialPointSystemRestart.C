@@ -9,6 +9,7 @@ License
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 #include "cloud.H"
+#include "bodies.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "phasePair.H"
@@ -116,6 +117,10 @@ void Foam::mpm::materialPointSystem::describeCase() const
         (
             "interaction", properties_.subOrEmptyDict("interaction")
         );
+    }
+    if (bodies_.valid())
+    {
+        record_.settings().set("bodies", properties_.subDict("bodies"));
     }
     record_.settings().set("gravity", g_);
     record_.settings().set
@@ -279,6 +284,11 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
         }
     }
     firstStep_ = clouds_[0].stepCount();
+    if (bodies_.valid() && firstStep_ > 0)
+    {
+        bodies_->readState(state.subDict("bodies"));
+    }
+    bodiesMoved_ = bodies_.valid();
     for (const materialPointCloud& cloud : clouds_) cloud.checkDigits();
     if (recorded)
     {
@@ -392,6 +402,12 @@ void Foam::mpm::materialPointSystem::writeState() const
         dictionary dict;
         cloud.writeState(dict);
         state.set(cloud.name(), dict);
+    }
+    if (bodies_.valid())
+    {
+        dictionary dict;
+        bodies_->writeState(dict);
+        state.set("bodies", dict);
     }
     describeCase();
     record_.write(state);

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "materialPointCloud.H"
+#include "bodies.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "PstreamBuffers.H"
@@ -423,6 +424,8 @@ Foam::mpm::materialPointCloud::materialPointCloud
     order_(field_->order),
     nodes_(field_->nodes),
     filter_(field_->filter),
+    bodies_(nullptr),
+    putOut_(0),
     coupling_(nullptr),
     recordWallLoads_(false),
     extremeLeft_(false),
@@ -602,8 +605,51 @@ Foam::mpm::materialPointCloud::startMotion(const vector& up)
 }
 
 
+void Foam::mpm::materialPointCloud::putOutOfBodies()
+{
+    const bitSet& nearCells = leader().nearBodies();
+    const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
+    const scalar h = cells.minSpacing();
+    const label* cell = points_.cell();
+    const size_t nMovers = movers_.size();
+
+    for (label p = 0; p < size(); ++p)
+    {
+        if (!nearCells.test(cell[p])) continue;
+        point at(position(p));
+        scalar phi;
+        const label b = bodies_->nearest(at, phi);
+        if (!(phi < 0)) continue;
+
+        const vector g((*bodies_)[b].gradient(at, 0.5*h));
+        if (!(mag(g) > SMALL)) continue;
+        at += (1e-6*h - phi)*g/mag(g);
+        for (label d = 0; d < nDim; ++d)
+        {
+            points_.column(x_ + d)[p] = at[cells.axis(d)];
+        }
+        movers_.push_back(p);
+        ++putOut_;
+    }
+
+    // In the order of the points, each once
+    if (movers_.size() > nMovers)
+    {
+        std::sort(movers_.begin(), movers_.end());
+        movers_.erase
+            (std::unique(movers_.begin(), movers_.end()), movers_.end());
+    }
+}
+
+
 void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 {
+    if (bodies_)
+    {
+        cost_.start("bodies: points put out");
+        putOutOfBodies();
+    }
     cost_.start("relocate and sort");
 
     const lattice& cells = grid_.cells();

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "soilCloud.H"
+#include "bodyContact.H"
 #include "effectsTable.H"
 #include "waterCloud.H"
 #include "dictionaryEntries.H"
@@ -214,7 +215,81 @@ Foam::mpm::soilCloud::soilCloud
 }
 
 
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::mpm::soilCloud::~soilCloud()
+{}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::soilCloud::addBodies(const bodies& all)
+{
+    materialPointCloud::addBodies(all);
+
+    // The leader's contact is that of the nodes of all
+    if (!leads()) return;
+    contact_.reset
+    (
+        new bodyContact
+            (grid_, boundary_, all, name(), settings_.strictKeywords)
+    );
+    boundary_.add(*contact_);
+}
+
+
+void Foam::mpm::soilCloud::placeBodies()
+{
+    if (contact_.valid()) contact_->place();
+}
+
+
+void Foam::mpm::soilCloud::pushBody
+(
+    const label body,
+    const scalar deltaT,
+    scalar (&impulse)[6],
+    scalar (&resistance)[36]
+) const
+{
+    if (contact_.valid()) contact_->push(body, deltaT, impulse, resistance);
+}
+
+
+void Foam::mpm::soilCloud::followBodies(const scalar deltaT)
+{
+    if (contact_.valid()) contact_->follow(deltaT, nodes_);
+}
+
+
+Foam::mpm::nodeConstraint::load Foam::mpm::soilCloud::loadOn
+(
+    const label body
+) const
+{
+    return contact_.valid() ? contact_->loadOn(body) : nodeConstraint::load();
+}
+
+
+void Foam::mpm::soilCloud::finishNodes(const scalar deltaT)
+{
+    if (contact_.valid())
+    {
+        // A column of some cells on the body vibrates that slowly
+        const scalar lengths = 25*grid_.cells().minSpacing();
+        const scalar c = waveSpeed();
+        contact_->setMemory(c > 0 ? lengths/c : deltaT);
+    }
+    materialPointCloud::finishNodes(deltaT);
+}
+
+
+const Foam::bitSet& Foam::mpm::soilCloud::nearBodies() const
+{
+    return contact_->nodes().nearCells();
+}
+
+
 
 void Foam::mpm::soilCloud::checkDictionary
 (
@@ -520,6 +595,7 @@ void Foam::mpm::soilCloud::readState(const dictionary& dict)
     {
         stressWork_ = dict.lookupOrDefault<scalar>("stressWork", 0);
     }
+    if (contact_.valid()) contact_->readState(dict);
 }
 
 
@@ -531,6 +607,7 @@ void Foam::mpm::soilCloud::writeState(dictionary& dict) const
     dict.set("minVoidRatio", returnReduce(minVoidRatio_, minOp<scalar>()));
     dict.set("viscosity", returnReduce(viscosity_, maxOp<scalar>()));
     dict.set("stressWork", returnReduce(stressWork_, sumOp<scalar>()));
+    if (contact_.valid()) contact_->writeState(dict);
 }
 
 

@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waterCloud.H"
+#include "bodyWall.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "PstreamReduceOps.H"
@@ -364,6 +365,12 @@ Foam::mpm::waterCloud::waterCloud
 }
 
 
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::mpm::waterCloud::~waterCloud()
+{}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::mpm::waterCloud::checkDictionary
@@ -491,6 +498,125 @@ void Foam::mpm::waterCloud::setAtRest(const label p, const vector& gravity)
 }
 
 
+void Foam::mpm::waterCloud::addBodies(const bodies& all)
+{
+    materialPointCloud::addBodies(all);
+    if (!settings_.smoothing)
+    {
+        FatalErrorInFunction
+            << "cloud " << name() << " meets bodies, but smoothing in"
+            << " system/fvSolution, MPM is no: the pressure at their surface"
+            << " is that of the smoothed nodes." << nl
+            << "    Allowed: smoothing yes" << exit(FatalError);
+    }
+    wall_.reset
+    (
+        new bodyWall
+        (
+            grid_, boundary_, all, name(), fluid_.rho0(),
+            settings_.strictKeywords
+        )
+    );
+    boundary_.add(*wall_);
+}
+
+
+void Foam::mpm::waterCloud::addBodySaturation
+(
+    const std::vector<scalar>& inverseVolume
+)
+{
+    wall_->addSaturation(nodes_.saturation, inverseVolume, order_.nodes());
+}
+
+
+void Foam::mpm::waterCloud::pressAtBodies()
+{
+    cost_.start("bodies: pressure");
+    const std::vector<bodyNodes::local>& near = wall_->nodes().locals();
+    const std::vector<scalar>& inverseSpace =
+        coupling_ ? coupling_->inversePoreVolume : boundary_.inverseVolume();
+    std::vector<scalar> pressure(near.size()), water(near.size());
+    std::vector<scalar> space(near.size());
+    for (size_t i = 0; i < near.size(); ++i)
+    {
+        const scalar J = meanVolumeRatio(near[i].grid);
+        pressure[i] = J > 0 ? max(fluid_.pressure(J), minPressure_) : 0;
+        water[i] = nodes_.cloudVolume(near[i].grid);
+        space[i] = 1/inverseSpace[near[i].grid];
+    }
+    wall_->press(pressure, water, space, nodes_);
+
+    // Where there is soil it bears its part, as of the pressure of the points.
+    // That is summed over ranks later.
+    const std::vector<scalar>& inverseVolume = boundary_.inverseVolume();
+    for (const bodyNodes::local& l : near)
+    {
+        const label i = l.grid;
+        const nodeVector force(wall_->wallForce(l));
+        if
+        (
+            coupling_
+         && coupling_->inversePoreVolume[i] > (1 + 1e-9)*inverseVolume[i]
+        )
+        {
+            coupling_->pressureForce[i] += grid_.share(i)*force;
+        }
+        else nodes_.force[i] += force;
+    }
+}
+
+
+void Foam::mpm::waterCloud::placeBodies()
+{
+    wall_->place();
+}
+
+
+void Foam::mpm::waterCloud::pushBody
+(
+    const label body,
+    const scalar deltaT,
+    scalar (&impulse)[6],
+    scalar (&resistance)[36]
+) const
+{
+    wall_->push(body, deltaT, transfer_->picFraction(deltaT), impulse, resistance);
+}
+
+
+void Foam::mpm::waterCloud::followBodies(const scalar deltaT)
+{
+    wall_->react(nodes_);
+    wall_->findLoads(deltaT, transfer_->picFraction(deltaT));
+}
+
+
+Foam::mpm::nodeConstraint::load Foam::mpm::waterCloud::loadOn
+(
+    const label body
+) const
+{
+    return wall_->loadOn(body);
+}
+
+
+void Foam::mpm::waterCloud::finishNodes(const scalar deltaT)
+{
+    materialPointCloud::finishNodes(deltaT);
+    if (wall_.valid())
+    {
+        wall_->findLoads(deltaT, transfer_->picFraction(deltaT));
+    }
+}
+
+
+const Foam::bitSet& Foam::mpm::waterCloud::nearBodies() const
+{
+    return wall_->nodes().nearCells();
+}
+
+
 void Foam::mpm::waterCloud::rebuild()
 {
     basins_.clear();
@@ -535,7 +661,7 @@ void Foam::mpm::waterCloud::addLimits(stepLimits& limits)
     materialPointCloud::addLimits(limits);
 
     // Through inlets and outlets anything may come and go
-    if (settings_.volumeCorrection && !open_.valid())
+    if (settings_.volumeCorrection && !open_.valid() && !bodies_)
     {
         limits.addSums
         (

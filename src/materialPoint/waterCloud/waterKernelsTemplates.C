@@ -97,6 +97,10 @@ class waterKernelsFor
         (
             [&](const label i) { S[i] = volume(i)*inversePoreVolume[i]; }
         );
+        if (c.bodies_)
+        {
+            c.addBodySaturation(inversePoreVolume);
+        }
         forNeighbourhoods
         (
             [&](const label i, const std::vector<label>& neighbours)
@@ -177,17 +181,6 @@ class waterKernelsFor
         for (const auto& point : cloud_.held_) J[point.first] = point.second;
     }
 
-    //- Smoothed volume ratio of a node; ghost nodes have their own
-    scalar meanVolumeRatio(const label i) const
-    {
-        const nodalFields& nodes = cloud_.nodes_;
-        const scalar unfolded = nodes.mass(i) + nodes.ghostMass[i];
-        return
-            unfolded > 0
-          ? cloud_.fluid_.rho0()*nodes.smoothingSum(i)/unfolded
-          : 0;
-    }
-
 public:
 
     explicit waterKernelsFor(waterCloud& cloud)
@@ -243,6 +236,7 @@ public:
         c.correctionWork_ += sumLanes(m.correctionWork);
 
         this->exchangeForces();
+        if (c.bodies_) c.pressAtBodies();
         this->filter();
 
         if (c.coupling_ && c.coupling_->contact)
@@ -252,7 +246,7 @@ public:
             (
                 [&](const label i)
                 {
-                    const scalar J = meanVolumeRatio(i);
+                    const scalar J = c.meanVolumeRatio(i);
                     c.coupling_->pressure[i] =
                         J > 0
                       ? max(c.fluid_.pressure(J), c.minPressure_)
@@ -275,7 +269,7 @@ public:
             deltaT,
             [&](const label i)
             {
-                if (smoothing) c.nodes_.smoothed(i) = meanVolumeRatio(i);
+                if (smoothing) c.nodes_.smoothed(i) = c.meanVolumeRatio(i);
             }
         );
         if (c.energyBalance_)

@@ -209,7 +209,7 @@ void Foam::mpm::frictionalWall::fold(nodeMotion& nodes) const
 }
 
 
-void Foam::mpm::frictionalWall::start(const nodeMotion& nodes)
+void Foam::mpm::frictionalWall::start(nodeMotion& nodes)
 {
     for (const label i : active_)
     {

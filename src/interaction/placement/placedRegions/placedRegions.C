@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "placedRegions.H"
+#include "bodies.H"
 #include "cellZoneRegion.H"
 #include "dictionaryEntries.H"
 #include "inflowOutflow.H"
@@ -219,6 +220,51 @@ Foam::point Foam::mpm::placedRegions::position
 }
 
 
+Foam::scalar Foam::mpm::placedRegions::free(point& x, const vector& size) const
+{
+    const bodies* all = cloud_.bodiesPtr();
+    scalar phi;
+    if (!all || all->nearest(x, phi) < 0) return 1;
+
+    const label nDim = cells_.nDim();
+    const scalar reach = 0.5*mag(size)/nPerDirection_;
+    if (phi > reach) return 1;
+    if (phi < -reach) return 0;
+
+    // Its part of the cell, divided
+    const label n = nDim == 2 ? 8 : 5;
+    const label nParts = nDim == 2 ? n*n : n*n*n;
+    scalar sum = 0;
+    vector first(Zero);
+    for (label k = 0; k < nParts; ++k)
+    {
+        vector dx(Zero);
+        label rest = k;
+        for (label d = 0; d < nDim; ++d)
+        {
+            const label c = cells_.axis(d);
+            dx[c] = ((rest % n + 0.5)/n - 0.5)*size[c]/nPerDirection_;
+            rest /= n;
+        }
+        all->nearest(x + dx, phi);
+        const scalar part = min
+        (
+            scalar(1),
+            max
+            (
+                scalar(0),
+                0.5 + phi*n*nPerDirection_/cells_.minSpacing()
+            )
+        );
+        sum += part;
+        first += part*dx;
+    }
+    if (!(sum > 0)) return 0;
+    x += first/sum;
+    return sum/nParts;
+}
+
+
 bool Foam::mpm::placedRegions::holds
 (
     const pointRegion& region,
@@ -266,8 +312,13 @@ Foam::mpm::placedRegions::fill(const pointRegion& region)
         for (label k = 0; k < perCell; ++k)
         {
             const int64_t id = cellId*perCell + k;
-            const point x(position(corner, size, k, id));
+            point x(position(corner, size, k, id));
             if (!holds(region, x, celli)) continue;
+
+            // Less has no weight, and moves with all others
+            const scalar leastPart = 0.02;
+            const scalar part = free(x, size);
+            if (part < leastPart) continue;
 
             if (!taken_.insert(id))
             {
@@ -280,6 +331,7 @@ Foam::mpm::placedRegions::fill(const pointRegion& region)
             result.position.append(x);
             result.cell.append(celli);
             result.id.append(scalar(id));
+            result.part.append(part);
         }
     }
     return result;
@@ -366,6 +418,10 @@ void Foam::mpm::placedRegions::add
     const scalar level = dict.lookupOrDefault<scalar>("level", top(p));
     const label first =
         cloud_.addPoints(p.position, p.cell, p.id, velocities(dict, p));
+    if (cloud_.bodiesPtr())
+    {
+        part_.insert(part_.end(), p.part.begin(), p.part.end());
+    }
     regions_.push_back
     (
         placed
@@ -430,6 +486,17 @@ Foam::mpm::placedRegions::placedRegions
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalarField Foam::mpm::placedRegions::pointVolumes
+(
+    const placed& region
+) const
+{
+    scalarField V(region.size());
+    forAll(V, i) V[i] = pointVolume(region.first + i);
+    return V;
+}
+
 
 Foam::label Foam::mpm::placedRegions::cellAt(const point& x) const
 {

@@ -336,7 +336,7 @@ void Foam::mpm::soilPlacement::setState(const placedRegions* inWater)
         soil_.setState
         (
             r.first,
-            scalarField(r.size(), regions_.pointVolume()),
+            regions_.pointVolumes(r),
             scalarField(r.size(), voidRatio(r.dict)),
             stress->stress(r)
         );

@@ -82,7 +82,7 @@ void Foam::mpm::waterPlacement::setState
             )
         );
         scalarField p(r.size());
-        scalarField V(r.size(), regions_.pointVolume());
+        scalarField V(regions_.pointVolumes(r));
         forAll(p, i)
         {
             const point x(water_.position(r.first + i));

@@ -1,0 +1,276 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "bodyContact.H"
+#include "nodeBoundary.H"
+#include "dictionaryEntries.H"
+#include <unordered_map>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(bodyContact, 0);
+}
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::bodyContact::bodyContact
+(
+    const backgroundGrid& grid,
+    const nodeBoundary& boundary,
+    const bodies& all,
+    const word& cloud,
+    const bool strict
+)
+:
+    nodeConstraint(grid),
+    boundary_(boundary),
+    bodies_(all),
+    nodes_(grid, all),
+    noSlip_(all.size(), false),
+    friction_(all.size(), 0),
+    impulse_(all.size()),
+    loads_(all.size())
+{
+    for (label b = 0; b < all.size(); ++b)
+    {
+        const dictionary dict(all[b].wallOf(cloud));
+        checkKeywords(dict, {"type", "frictionCoefficient"}, strict);
+        noSlip_[b] =
+            readChoiceOrDefault(dict, "type", "friction", {"friction", "noSlip"})
+         == "noSlip";
+        if (dict.found("frictionCoefficient"))
+        {
+            if (noSlip_[b])
+            {
+                reportEntry
+                (
+                    dict,
+                    "keyword frictionCoefficient is given, but type is noSlip",
+                    strict
+                );
+            }
+            friction_[b] = readBounded
+            (
+                dict, "frictionCoefficient", dimless, 0, 10, true, true
+            );
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::bodyContact::place()
+{
+    // Nodes keep what they know, by what they are
+    std::unordered_map<int64_t, scalar> kept(read_);
+    for (size_t k = 0; k < next_.size(); ++k)
+    {
+        if (next_[k] > 0) kept[nodes_.id(label(k))] = next_[k];
+    }
+    nodes_.build(boundary_.folding(), boundary_.inverseVolume());
+    next_.assign(nodes_.size(), 0);
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        const auto found = kept.find(nodes_.id(k));
+        if (found != kept.end()) next_[k] = found->second;
+    }
+
+    const scalar most = contactDistance*grid_.cells().minSpacing();
+    DynamicList<label> near;
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        if (nodes_[k].phi < most && magSqr(nodes_[k].n) > 0) near.append(k);
+    }
+    near_ = near;
+    inRange_.reset();
+    inRange_.resize(nodes_.size());
+    inRange_.set(near_);
+}
+
+
+void Foam::mpm::bodyContact::finish(const scalar deltaT, nodeMotion& nodes)
+{
+    std::vector<vector> momentum;
+    std::vector<scalar> unused;
+    nodes_.gather(nodes.momentum, 1, momentum, mass_);
+    nodes_.gather(nodes.velocity, 0, before_, unused);
+    mean_ = next_;
+    read_.clear();
+    follow(deltaT, nodes);
+}
+
+
+void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
+{
+    std::vector<vector> v(before_);
+    held_.reset();
+    held_.resize(nodes_.size());
+
+    // What each node is pressed by and what holding it asks for, per contact
+    std::vector<scalar> pressed(nodes_.size(), 0);
+    std::vector<vector> along(nodes_.size(), Zero);
+    for (const label k : near_)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        if (!(mass_[k] > 0)) continue;
+        const vector relative
+        (
+            v[k] - bodies_[node.body].motion().velocity(node.x)
+        );
+        const scalar normal = relative & node.n;
+        pressed[k] = mass_[k]*max(scalar(0), -normal);
+        along[k] = mass_[k]*(relative - normal*node.n);
+    }
+
+    // Mean normal force of the contact over the time of its vibration
+    const scalar fresh = 1 - std::exp(-deltaT/memory_);
+    std::vector<scalar> steady(nodes_.size(), 0);
+    for (const label k : near_)
+    {
+        const scalar now = pressed[k]/deltaT;
+        next_[k] = mean_[k] > 0 ? mean_[k] + fresh*(now - mean_[k]) : now;
+        steady[k] = deltaT*next_[k];
+    }
+
+    // What friction can bear: the normal impulse, shared among the nodes of the
+    // contact around by their mass, as single nodes lose contact now and then
+    std::vector<scalar> bears(nodes_.size(), 0);
+    DynamicList<label> around;
+    for (const label k : near_)
+    {
+        if (!(steady[k] > 0)) continue;
+        around.clear();
+        around.append(k);
+        scalar masses = mass_[k];
+        for (label j = 0; j < nodes_.nNeighbours(); ++j)
+        {
+            const label neighbour = nodes_.neighbours(k)[j];
+            if (neighbour < 0 || !inRange_.test(neighbour)) continue;
+            if (!(mass_[neighbour] > 0)) continue;
+            around.append(neighbour);
+            masses += mass_[neighbour];
+        }
+        for (const label j : around)
+        {
+            bears[j] += friction_[nodes_[k].body]*steady[k]*mass_[j]/masses;
+        }
+    }
+
+    for (load& l : impulse_) l = load();
+    const lattice& cells = grid_.cells();
+    for (const label k : near_)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        if (!(mass_[k] > 0)) continue;
+
+        vector lost(Zero);
+        if (noSlip_[node.body])
+        {
+            lost = along[k]
+              + mass_[k]*(
+                    (v[k] - bodies_[node.body].motion().velocity(node.x))
+                  & node.n
+                )*node.n;
+        }
+        else
+        {
+            const scalar asked = mag(along[k]);
+            lost = -pressed[k]*node.n
+              + (asked > bears[k] ? bears[k]/max(asked, VSMALL) : 1)
+               *along[k];
+        }
+        v[k] -= lost/mass_[k];
+        if (magSqr(lost) > 0) held_.set(k);
+        impulse_[node.body].force += lost;
+        impulse_[node.body].moment +=
+            (node.x - bodies_[node.body].motion().centre()) ^ lost;
+    }
+    for (const bodyNodes::local& l : nodes_.locals())
+    {
+        if (!(mass_[l.number] > 0)) continue;
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            nodes.velocity[l.grid][d] = v[l.number][cells.axis(d)];
+        }
+    }
+    forAll(loads_, b)
+    {
+        loads_[b].force = impulse_[b].force/deltaT;
+        loads_[b].moment = impulse_[b].moment/deltaT;
+    }
+}
+
+
+void Foam::mpm::bodyContact::writeState(dictionary& dict) const
+{
+    // A number of 64 bits, exact to 2^53
+    DynamicList<scalar> id, force;
+    for (size_t k = 0; k < next_.size(); ++k)
+    {
+        if (!(next_[k] > 0)) continue;
+        id.append(scalar(nodes_.id(label(k))));
+        force.append(next_[k]);
+    }
+    if (id.empty()) return;
+    dict.set("contactNodes", scalarList(id));
+    dict.set("contactForces", scalarList(force));
+}
+
+
+void Foam::mpm::bodyContact::readState(const dictionary& dict)
+{
+    if (!dict.found("contactNodes")) return;
+    const scalarList id(dict.get<scalarList>("contactNodes"));
+    const scalarList force(dict.get<scalarList>("contactForces"));
+
+    // Nodes take it when they are placed where the bodies are
+    forAll(id, i) read_[int64_t(id[i])] = force[i];
+    next_.clear();
+    place();
+}
+
+
+void Foam::mpm::bodyContact::push
+(
+    const label i,
+    const scalar,
+    scalar (&impulse)[6],
+    scalar (&resistance)[36]
+) const
+{
+    const point& centre = bodies_[i].motion().centre();
+    for (direction d = 0; d < 3; ++d)
+    {
+        impulse[d] += impulse_[i].force[d];
+        impulse[3 + d] += impulse_[i].moment[d];
+    }
+    for (label motion = 0; motion < 6; ++motion)
+    {
+        vector V(Zero), Omega(Zero);
+        (motion < 3 ? V : Omega)[motion % 3] = 1;
+        for (const label k : held_)
+        {
+            const bodyNodes::node& node = nodes_[k];
+            if (node.body != i) continue;
+            const vector v(V + (Omega ^ (node.x - centre)));
+            const vector J
+            (
+                mass_[k]*(noSlip_[i] ? v : (v & node.n)*node.n)
+            );
+            const vector M((node.x - centre) ^ J);
+            for (direction d = 0; d < 3; ++d)
+            {
+                resistance[6*d + motion] += J[d];
+                resistance[6*(3 + d) + motion] += M[d];
+            }
+        }
+    }
+}
+
+// ************************************************************************* //

@@ -1,0 +1,479 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "bodyNodes.H"
+#include "PstreamReduceOps.H"
+#include <algorithm>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+int64_t Foam::mpm::bodyNodes::globalId(const index3& at) const
+{
+    const lattice& cells = grid_.cells();
+    int64_t id = 0;
+    for (label d = cells.nDim() - 1; d >= 0; --d)
+    {
+        const label n = cells.nCells(d);
+        label i = at[d];
+        if (cells.periodic(d)) i = ((i % n) + n) % n;
+        id = id*width(d) + i + backgroundGrid::margin;
+    }
+    return id;
+}
+
+
+bool Foam::mpm::bodyNodes::range
+(
+    const body& b,
+    index3& first,
+    index3& last
+) const
+{
+    const lattice& cells = grid_.cells();
+    const boundBox bounds(b.bounds());
+    first = 0;
+    last = 0;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        const label axis = cells.axis(d);
+        first[d] = max
+        (
+            label(0),
+            cells.cellCoordinate(d, bounds.min()[axis]) - grid_.lower(d)
+        );
+        last[d] = min
+        (
+            grid_.nNodes(d) - 1,
+            cells.cellCoordinate(d, bounds.max()[axis]) - grid_.lower(d) + 1
+        );
+        if (first[d] > last[d]) return false;
+    }
+    return true;
+}
+
+
+void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
+{
+    const lattice& cells = grid_.cells();
+    const scalar h = cells.minSpacing();
+    const scalar far = body::reach*h;
+
+    for (const local& l : local_) numberOf_[l.grid] = -1;
+    local_.clear();
+    nodes_.clear();
+    id_.clear();
+    number_.clear();
+
+    // Of this rank, each copy once
+    std::vector<std::pair<int64_t, label>> own;
+    for (label b = 0; b < bodies_.size(); ++b)
+    {
+        index3 first, last;
+        if (!range(bodies_[b], first, last)) continue;
+        index3 i;
+        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
+        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
+        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+        {
+            const label node = grid_.index(i);
+            if (!(inverseVolume[node] > 0)) continue;
+            const scalar phi = bodies_[b].distance(grid_.nodePosition(node));
+            if (!(mag(phi) < far) || numberOf_[node] >= 0) continue;
+            numberOf_[node] = 0;
+
+            index3 at;
+            at = 0;
+            for (label d = 0; d < cells.nDim(); ++d)
+            {
+                at[d] = i[d] + grid_.lower(d);
+            }
+            own.emplace_back(globalId(at), node);
+        }
+    }
+    std::sort(own.begin(), own.end());
+
+    // Of all ranks; the first one that has a node gives it
+    List<List<int64_t>> ids(Pstream::nProcs());
+    List<int64_t>& mine = ids[Pstream::myProcNo()];
+    mine.setSize(own.size());
+    forAll(mine, i) mine[i] = own[i].first;
+    Pstream::gatherList(ids);
+    Pstream::scatterList(ids);
+
+    std::unordered_map<int64_t, label> giver;
+    forAll(ids, rank)
+    {
+        for (const int64_t id : ids[rank])
+        {
+            if (giver.emplace(id, rank).second) id_.push_back(id);
+        }
+    }
+    std::sort(id_.begin(), id_.end());
+    number_.reserve(id_.size());
+    for (size_t i = 0; i < id_.size(); ++i) number_[id_[i]] = label(i);
+
+    nodes_.resize(id_.size());
+    for (size_t k = 0; k < id_.size(); ++k)
+    {
+        node& n = nodes_[k];
+        n.x = Zero;
+        int64_t rest = id_[k];
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            const label i = label(rest % width(d)) - backgroundGrid::margin;
+            n.x[cells.axis(d)] = cells.origin(d) + i*cells.spacing(d);
+            rest /= width(d);
+        }
+        if (cells.nDim() == 2) n.x[cells.axis(2)] = cells.midPlane();
+
+        n.body = bodies_.nearest(n.x, n.phi);
+        const vector g(bodies_[n.body].gradient(n.x, h));
+        n.smooth = magSqr(g) > 0.94;
+
+        // In the middle of a body there is no nearest point of the surface
+        const vector fine(bodies_[n.body].gradient(n.x, 0.5*h));
+        const vector& longer = mag(fine) > mag(g) ? fine : g;
+        n.n = mag(longer) > SMALL ? longer/mag(longer) : vector(Zero);
+        n.V = 0;
+        n.W = Zero;
+        n.A = Zero;
+        n.T = Zero;
+        n.inverseVolume = 0;
+        n.free = vector::one;
+        n.given = Zero;
+    }
+
+    int64_t last = -1;
+    for (const auto& o : own)
+    {
+        const label k = number_[o.first];
+        numberOf_[o.second] = k;
+        const bool gives =
+            o.first != last && giver[o.first] == Pstream::myProcNo();
+        last = o.first;
+        local_.push_back(local{o.second, k, gives});
+        if (gives) nodes_[k].inverseVolume = inverseVolume[o.second];
+    }
+    std::vector<scalar> inverse(nodes_.size());
+    for (size_t k = 0; k < nodes_.size(); ++k)
+    {
+        inverse[k] = nodes_[k].inverseVolume;
+    }
+    sum(inverse);
+    for (size_t k = 0; k < nodes_.size(); ++k)
+    {
+        nodes_[k].inverseVolume = inverse[k];
+    }
+}
+
+
+void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = cells.nDim();
+    const label T = grid_.reachWidth();
+    const label size = grid_.reachSize();
+    const scalar h = cells.minSpacing();
+
+    constexpr label nSub = 4;
+    const label nSubs = nDim == 3 ? nSub*nSub*nSub : nSub*nSub;
+    const scalar dV = cells.cellVolume()/nSubs;
+    const scalar diagonal = 0.5*std::sqrt(scalar(nDim))*h;
+
+    // Weights at the points that a cell is divided by, the same in each cell
+    scalar w1[nSub][4], unused[4];
+    for (label s = 0; s < nSub; ++s)
+    {
+        reachWeights(grid_, (s + 0.5)/nSub, w1[s], unused);
+    }
+
+    // Weighted volume of the body, and its first and second moment about the
+    // lower corner of the cell, in cells, by node in reach
+    struct moments { scalar V = 0; vector first = Zero; tensor second = Zero; };
+    auto addPoint = [&](moments* m, const label sub, const scalar volume)
+    {
+        index3 s;
+        label rest = sub;
+        for (label d = 0; d < 3; ++d)
+        {
+            s[d] = d < nDim ? rest % nSub : 0;
+            rest /= nSub;
+        }
+        vector y(Zero);
+        for (label d = 0; d < nDim; ++d) y[d] = (s[d] + 0.5)/nSub;
+        const tensor yy(y*y);
+        for (label t = 0; t < size; ++t)
+        {
+            scalar w = volume*w1[s[0]][t % T]*w1[s[1]][(t/T) % T];
+            if (nDim == 3) w *= w1[s[2]][t/(T*T)];
+            m[t].V += w;
+            m[t].first += w*y;
+            m[t].second += w*yy;
+        }
+    };
+    std::vector<moments> full(size);
+    for (label sub = 0; sub < nSubs; ++sub) addPoint(full.data(), sub, dV);
+
+    std::vector<scalar> sums(nodes_.size()*16, 0);
+    nearCells_.reset();
+    nearCells_.resize(grid_.nBoxNodes());
+    std::vector<moments> cut(size);
+
+    for (label b = 0; b < bodies_.size(); ++b)
+    {
+        index3 first, last, i;
+        if (!range(bodies_[b], first, last)) continue;
+        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
+        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
+        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+        {
+            const label cell = grid_.index(i);
+            if (!grid_.ownCell(cell)) continue;
+
+            const point corner(grid_.nodePosition(cell));
+            point middle(corner);
+            for (label d = 0; d < nDim; ++d)
+            {
+                middle[cells.axis(d)] += 0.5*cells.spacing(d);
+            }
+            const scalar phi = bodies_[b].distance(middle);
+            if (phi < h + diagonal) nearCells_.set(cell);
+
+            // The samples end somewhere in the middle of nowhere
+            if (!(phi < diagonal + h/nSub)) continue;
+            const moments* m = full.data();
+            if (!(phi < -diagonal - h/nSub))
+            {
+                std::fill(cut.begin(), cut.end(), moments());
+                for (label sub = 0; sub < nSubs; ++sub)
+                {
+                    point x(corner);
+                    label rest = sub;
+                    for (label d = 0; d < nDim; ++d)
+                    {
+                        x[cells.axis(d)] +=
+                            (rest % nSub + 0.5)/nSub*cells.spacing(d);
+                        rest /= nSub;
+                    }
+                    const scalar part = min
+                    (
+                        scalar(1),
+                        max
+                        (
+                            scalar(0),
+                            0.5 - nSub*bodies_[b].distance(x)/h
+                        )
+                    );
+                    if (part > 0) addPoint(cut.data(), sub, part*dV);
+                }
+                m = cut.data();
+            }
+
+            const label s = folding.stencil(cell);
+            for (label t = 0; t < size; ++t)
+            {
+                if (!(m[t].V > 0)) continue;
+                const label ghost =
+                    cell + grid_.reachOffset() + grid_.reachNode(t);
+                const label target = s < 0 ? ghost : folding.targets(s)[t];
+                const label k = target < numberOf_.size()
+                  ? numberOf_[target] : -1;
+                if (k < 0) continue;
+
+                // x_I of the node in reach, and of its target, from the corner
+                const index3 atGhost = grid_.coordinate(ghost);
+                const index3 atTarget = grid_.coordinate(target);
+                vector reached(Zero), own(Zero), scale(Zero), sign(Zero);
+                for (label d = 0; d < nDim; ++d)
+                {
+                    reached[d] = atGhost[d] - i[d];
+                    own[d] = atTarget[d] - i[d];
+                    sign[d] = s < 0 ? 1 : folding.signs(s)[t][d];
+                    scale[d] = sign[d]
+                       /(grid_.secondMoment()*cells.spacing(d));
+                }
+                scalar* sum = sums.data() + size_t(k)*16;
+                sum[0] += m[t].V;
+                for (label c = 0; c < nDim; ++c)
+                {
+                    sum[13 + cells.axis(c)] += sign[c]*m[t].V;
+                    sum[1 + cells.axis(c)] +=
+                        scale[c]*(m[t].V*reached[c] - m[t].first[c]);
+                    for (label d = 0; d < nDim; ++d)
+                    {
+                        // int N (x_I - x)_c (x_J - x)_d
+                        const scalar product =
+                            m[t].V*reached[c]*own[d]
+                          - reached[c]*m[t].first[d]
+                          - own[d]*m[t].first[c]
+                          + m[t].second[3*c + d];
+                        sum[4 + 3*cells.axis(c) + cells.axis(d)] +=
+                            scale[c]*cells.spacing(d)*product;
+                    }
+                }
+            }
+        }
+    }
+    sum(sums);
+    for (size_t k = 0; k < nodes_.size(); ++k)
+    {
+        const scalar* s = sums.data() + k*16;
+        nodes_[k].V = s[0];
+        nodes_[k].A = vector(s[1], s[2], s[3]);
+        for (label c = 0; c < 9; ++c) nodes_[k].T[c] = s[4 + c];
+        nodes_[k].W = vector(s[13], s[14], s[15]);
+    }
+}
+
+
+void Foam::mpm::bodyNodes::findNeighbours()
+{
+    const lattice& cells = grid_.cells();
+    const bool is3D = cells.nDim() == 3;
+    neighbours_.clear();
+    neighbours_.reserve(size_t(size())*nNeighbours());
+    for (const int64_t id : id_)
+    {
+        index3 at;
+        at = 0;
+        int64_t rest = id;
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            at[d] = label(rest % width(d)) - backgroundGrid::margin;
+            rest /= width(d);
+        }
+        for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
+        for (label j = -1; j <= 1; ++j)
+        for (label i = -1; i <= 1; ++i)
+        {
+            if (!i && !j && !k) continue;
+            const index3 o{i, j, k};
+            index3 there;
+            there = 0;
+            bool inside = true;
+            for (label d = 0; d < cells.nDim(); ++d)
+            {
+                there[d] = at[d] + o[d];
+                inside = inside
+                 && (
+                        cells.periodic(d)
+                     || (
+                            there[d] >= -backgroundGrid::margin
+                         && there[d] <= cells.nCells(d) + backgroundGrid::margin
+                        )
+                    );
+            }
+            const auto found =
+                inside ? number_.find(globalId(there)) : number_.end();
+            neighbours_.push_back
+                (found == number_.end() ? -1 : found->second);
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::bodyNodes::bodyNodes
+(
+    const backgroundGrid& grid,
+    const bodies& all
+)
+:
+    grid_(grid),
+    bodies_(all)
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::bodyNodes::build
+(
+    const nodeFolding& folding,
+    const std::vector<scalar>& inverseVolume
+)
+{
+    if (numberOf_.size() != grid_.nNodes())
+    {
+        local_.clear();
+        numberOf_.setSize(grid_.nNodes());
+        numberOf_ = -1;
+    }
+    findNodes(inverseVolume);
+    integrate(folding);
+    findNeighbours();
+}
+
+
+void Foam::mpm::bodyNodes::gather
+(
+    const nodeField<nodeVector>& field,
+    const label nScalars,
+    std::vector<vector>& v,
+    std::vector<scalar>& w
+) const
+{
+    const lattice& cells = grid_.cells();
+    const label n = cells.nDim() + nScalars;
+    std::vector<scalar> values(size_t(n)*size(), 0);
+    for (const local& l : local_)
+    {
+        if (!l.gives) continue;
+        for (label d = 0; d < n; ++d)
+        {
+            values[size_t(l.number)*n + d] = field[l.grid][d];
+        }
+    }
+    sum(values);
+    v.assign(size(), Zero);
+    if (nScalars) w.resize(size());
+    for (label k = 0; k < size(); ++k)
+    {
+        const scalar* value = values.data() + size_t(k)*n;
+        for (label d = 0; d < cells.nDim(); ++d) v[k][cells.axis(d)] = value[d];
+        if (nScalars) w[k] = value[cells.nDim()];
+    }
+}
+
+
+void Foam::mpm::bodyNodes::sum(std::vector<scalar>& values)
+{
+    if (!Pstream::parRun() || values.empty()) return;
+    List<scalar> all(label(values.size()));
+    std::copy(values.begin(), values.end(), all.begin());
+    Pstream::listCombineGather(all, plusEqOp<scalar>());
+    Pstream::listCombineScatter(all);
+    std::copy(all.begin(), all.end(), values.begin());
+}
+
+
+void Foam::mpm::bodyNodes::reachWeights
+(
+    const backgroundGrid& grid,
+    const scalar f,
+    scalar (&w)[4],
+    scalar (&g)[4]
+)
+{
+    scalar q[4];
+    if (grid.shapeFunction() == linear::name) linear::reachWeights(f, w, q, g);
+    else if (grid.shapeFunction() == quadraticBSpline::name)
+    {
+        quadraticBSpline::reachWeights(f, w, q, g);
+    }
+    else cubicBSpline::reachWeights(f, w, q, g);
+}
+
+
+size_t Foam::mpm::bodyNodes::memory() const
+{
+    return
+        sizeof(node)*nodes_.capacity() + sizeof(int64_t)*id_.capacity()
+      + sizeof(local)*local_.capacity()
+      + sizeof(label)*(numberOf_.size() + neighbours_.capacity())
+      + 40*number_.size() + nearCells_.size()/8;
+}
+
+// ************************************************************************* //

@@ -1,0 +1,753 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "bodyWall.H"
+#include "nodeBoundary.H"
+#include "dictionaryEntries.H"
+#include <algorithm>
+
+namespace Foam
+{
+namespace mpm
+{
+    defineTypeNameAndDebug(bodyWall, 0);
+}
+}
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+    using namespace Foam;
+
+    //- Part of its own velocity along a smooth surface that a slave keeps, how
+    //  deep in the body it may be for that [cells], and how full the node
+    const scalar ownPart = getenv("OWN") ? atof(getenv("OWN")) : 0.7;
+    constexpr scalar ownDepth = 0.5;
+    constexpr scalar ownFilling = 0.9;
+
+    //- Mass of a master over that of a full cell below which r^2 is raised
+    constexpr scalar thin = 0.6;
+
+    //- How full of water and body a node is from which on the wall presses,
+    //  and presses in full; and the same of the water in what the body leaves
+    constexpr scalar pressed = 0.7;
+    constexpr scalar fullyPressed = 0.9;
+    constexpr scalar pressedBeside = 0.3;
+    constexpr scalar fullyPressedBeside = 0.7;
+
+    //- From 0 to 1 between two values
+    scalar ramp(const scalar x, const scalar none, const scalar all)
+    {
+        return min(scalar(1), max(scalar(0), (x - none)/(all - none)));
+    }
+
+    vector product(const vector& a, const vector& b)
+    {
+        return cmptMultiply(a, b);
+    }
+
+    //- A tensor between components with signs
+    tensor withSigns(const tensor& t, const vector& sign)
+    {
+        tensor s(t);
+        for (direction i = 0; i < 3; ++i)
+        for (direction j = 0; j < 3; ++j)
+        {
+            s[3*i + j] *= sign[i]*sign[j];
+        }
+        return s;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::bodyWall::findFree()
+{
+    // What walls make of a velocity of one, and of none
+    nodeField<nodeVector> one(grid_.nNodes(), nodeVector{1, 1, 1, 1});
+    nodeField<nodeVector> none(grid_.nNodes(), nodeVector{});
+    boundary_.constrain(one, true);
+    boundary_.constrain(none, false);
+
+    std::vector<vector> free, given;
+    std::vector<scalar> unused;
+    nodes_.gather(one, 0, free, unused);
+    nodes_.gather(none, 0, given, unused);
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        nodes_[k].free = free[k];
+        nodes_[k].given = given[k];
+    }
+}
+
+
+void Foam::mpm::bodyWall::findSlaves()
+{
+    const scalar h = grid_.cells().minSpacing();
+    const scalar near = slaveDistance*h;
+
+    // By the ranks that have the cells of the image points
+    struct found
+    {
+        label number, first, last;
+    };
+    List<DynamicList<scalar>> numbers(Pstream::nProcs());
+    DynamicList<scalar>& mine = numbers[Pstream::myProcNo()];
+    std::vector<bodyNodes::source> sources;
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        if (!(node.phi < near)) continue;
+
+        const point image(node.x + (imageDistance*h - node.phi)*node.n);
+        nodes_.sourcesOf
+        (
+            image,
+            boundary_.folding(),
+            [&](const label j) { return nodes_[j].phi >= near; },
+            sources
+        );
+        if (sources.empty()) continue;
+        mine.append(k);
+        mine.append(scalar(sources.size()));
+        for (const bodyNodes::source& from : sources)
+        {
+            mine.append(from.node);
+            mine.append(from.weight);
+            for (direction d = 0; d < 3; ++d) mine.append(from.sign[d]);
+        }
+    }
+    if (Pstream::parRun())
+    {
+        Pstream::gatherList(numbers);
+        Pstream::scatterList(numbers);
+    }
+
+    sources_.clear();
+    std::vector<found> places(nodes_.size(), found{-1, 0, 0});
+    for (const DynamicList<scalar>& list : numbers)
+    {
+        for (label i = 0; i < list.size();)
+        {
+            const label k = label(list[i++]);
+            const label n = label(list[i++]);
+            const bool known = places[k].number >= 0;
+            if (!known)
+            {
+                places[k] =
+                {
+                    k, label(sources_.size()), label(sources_.size()) + n
+                };
+            }
+            for (label j = 0; j < n; ++j, i += 5)
+            {
+                if (known) continue;
+                sources_.push_back
+                (
+                    bodyNodes::source
+                    {
+                        label(list[i]),
+                        list[i + 1],
+                        vector(list[i + 2], list[i + 3], list[i + 4])
+                    }
+                );
+            }
+        }
+    }
+
+    slaves_.clear();
+    bitSet isMaster(nodes_.size());
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        if (!(node.phi < near)) continue;
+
+        // Without masters a node moves with the body
+        slave s{k, 0, noSlip_[node.body], 0, 0, 0};
+        if (places[k].number >= 0)
+        {
+            s.first = places[k].first;
+            s.last = places[k].last;
+            scalar distance = 0;
+            for (label j = s.first; j < s.last; ++j)
+            {
+                distance += sources_[j].weight*nodes_[sources_[j].node].phi;
+                isMaster.set(sources_[j].node);
+            }
+            s.r = max(scalar(-2), min(scalar(1), node.phi/distance));
+        }
+        slaves_.push_back(s);
+    }
+    masters_ = isMaster.toc();
+}
+
+
+Foam::tensor Foam::mpm::bodyWall::factor
+(
+    const slave& s,
+    const scalar normal
+) const
+{
+    if (s.noSlip) return normal*tensor(I);
+    const vector& n = nodes_[s.number].n;
+    return normal*(n*n) + (1 - s.own)*(tensor(I) - n*n);
+}
+
+
+Foam::vector Foam::mpm::bodyWall::partOfBody
+(
+    const slave& s,
+    const vector& velocity,
+    const vector& angularVelocity
+) const
+{
+    const bodyNodes::node& node = nodes_[s.number];
+    const point& centre = bodies_[node.body].motion().centre();
+    auto at = [&](const point& x)
+    {
+        return velocity + (angularVelocity ^ (x - centre));
+    };
+    vector part(at(node.x));
+    for (label j = s.first; j < s.last; ++j)
+    {
+        const bodyNodes::source& from = sources_[j];
+        part -= s.r*from.weight*at(nodes_[from.node].x);
+    }
+    return s.noSlip ? part : (node.n & part)*node.n;
+}
+
+
+Foam::vector Foam::mpm::bodyWall::fromMasters
+(
+    const slave& s,
+    const std::vector<vector>& v
+) const
+{
+    vector sum(Zero);
+    for (label j = s.first; j < s.last; ++j)
+    {
+        const bodyNodes::source& from = sources_[j];
+        sum += from.weight*product(from.sign, v[from.node]);
+    }
+    return factor(s, s.r) & sum;
+}
+
+
+std::vector<Foam::vector> Foam::mpm::bodyWall::bodyParts() const
+{
+    std::vector<vector> parts(slaves_.size());
+    for (size_t i = 0; i < slaves_.size(); ++i)
+    {
+        const bodyMotion& motion =
+            bodies_[nodes_[slaves_[i].number].body].motion();
+        parts[i] = partOfBody
+            (slaves_[i], motion.velocity(), motion.angularVelocity());
+    }
+    return parts;
+}
+
+
+void Foam::mpm::bodyWall::solve
+(
+    const std::vector<vector>& change,
+    const std::vector<vector>& fromBody,
+    nodeMotion& nodes,
+    List<load>& sum
+)
+{
+    // Momentum of the masters
+    std::vector<vector> momentum(nodes_.size(), Zero);
+    for (const label k : masters_) momentum[k] = change[k];
+    for (size_t i = 0; i < slaves_.size(); ++i)
+    {
+        const slave& s = slaves_[i];
+        if (!(mass_[s.number] > 0)) continue;
+        const vector given
+        (
+            factor(s, s.r)
+          & (
+                change[s.number]
+              - mass_[s.number]*(fromBody[i] - fromBody_[i])
+            )
+        );
+        for (label j = s.first; j < s.last; ++j)
+        {
+            const bodyNodes::source& from = sources_[j];
+            momentum[from.node] += from.weight*product(from.sign, given);
+        }
+    }
+
+    std::vector<vector> before(nodes_.size());
+    for (label k = 0; k < nodes_.size(); ++k) before[k] = velocity_[k];
+
+    for (const label k : masters_)
+    {
+        velocity_[k] += inverseMass_[k] & momentum[k];
+        velocity_[k] =
+            product(nodes_[k].free, velocity_[k]) + nodes_[k].given;
+    }
+    for (size_t i = 0; i < slaves_.size(); ++i)
+    {
+        const slave& s = slaves_[i];
+        const bodyNodes::node& node = nodes_[s.number];
+        vector v(fromBody[i] + fromMasters(s, velocity_));
+        if (s.own > 0 && mass_[s.number] > 0)
+        {
+            ownVelocity_[s.number] += change[s.number]/mass_[s.number];
+            const vector& own = ownVelocity_[s.number];
+            v += s.own*(own - (node.n & own)*node.n);
+        }
+        velocity_[s.number] = product(node.free, v) + node.given;
+        fromBody_[i] = fromBody[i];
+    }
+    scatter(nodes.velocity);
+
+    // What the nodes did not get, their body did
+    auto add = [&](const label k)
+    {
+        if (!(mass_[k] > 0)) return;
+        const bodyNodes::node& node = nodes_[k];
+        const vector lost
+        (
+            change[k] - mass_[k]*(velocity_[k] - before[k])
+        );
+        sum[node.body].force += lost;
+        sum[node.body].moment +=
+            (node.x - bodies_[node.body].motion().centre()) ^ lost;
+    };
+    for (const label k : masters_) add(k);
+    for (const slave& s : slaves_) add(s.number);
+}
+
+
+void Foam::mpm::bodyWall::scatter(nodeField<nodeVector>& velocity) const
+{
+    const lattice& cells = grid_.cells();
+    for (const bodyNodes::local& l : nodes_.locals())
+    {
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            velocity[l.grid][d] = velocity_[l.number][cells.axis(d)];
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::bodyWall::bodyWall
+(
+    const backgroundGrid& grid,
+    const nodeBoundary& boundary,
+    const bodies& all,
+    const word& cloud,
+    const scalar rho0,
+    const bool strict
+)
+:
+    nodeConstraint(grid),
+    boundary_(boundary),
+    bodies_(all),
+    nodes_(grid, all),
+    noSlip_(all.size(), false),
+    rho0_(rho0),
+    projected_(all.size()),
+    impulse_(all.size()),
+    loads_(all.size())
+{
+    for (label b = 0; b < all.size(); ++b)
+    {
+        const dictionary dict(all[b].wallOf(cloud));
+        checkKeywords(dict, {"type"}, strict);
+        noSlip_[b] =
+            readChoiceOrDefault(dict, "type", "slip", {"slip", "noSlip"})
+         == "noSlip";
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::bodyWall::place()
+{
+    nodes_.build(boundary_.folding(), boundary_.inverseVolume());
+
+    // Walls alone
+    slaves_.clear();
+    findFree();
+    findSlaves();
+    fromBody_ = bodyParts();
+}
+
+
+void Foam::mpm::bodyWall::addSaturation
+(
+    std::vector<scalar>& saturation,
+    const std::vector<scalar>& inverse,
+    const bitSet& active
+)
+{
+    // Active nodes are found anew in each step
+    for (const label i : filled_)
+    {
+        if (!active.test(i)) saturation[i] = 0;
+    }
+    filled_.clear();
+    for (const bodyNodes::local& l : nodes_.locals())
+    {
+        const scalar V = nodes_[l.number].V;
+        if (!(V > 0)) continue;
+        saturation[l.grid] += V*inverse[l.grid];
+        filled_.push_back(l.grid);
+    }
+}
+
+
+void Foam::mpm::bodyWall::press
+(
+    const std::vector<scalar>& pressure,
+    const std::vector<scalar>& volume,
+    const std::vector<scalar>& space,
+    const nodeMotion& nodes
+)
+{
+    std::vector<scalar> values(size_t(4)*nodes_.size(), 0);
+    for (size_t i = 0; i < nodes_.locals().size(); ++i)
+    {
+        const bodyNodes::local& l = nodes_.locals()[i];
+        if (!l.gives) continue;
+        values[4*size_t(l.number)] = pressure[i];
+        values[4*size_t(l.number) + 1] = volume[i];
+        values[4*size_t(l.number) + 2] = nodes.mass(l.grid);
+        values[4*size_t(l.number) + 3] = space[i];
+    }
+    bodyNodes::sum(values);
+    auto p = [&](const label k) { return values[4*size_t(k)]; };
+    auto m = [&](const label k) { return values[4*size_t(k) + 2]; };
+
+    const lattice& cells = grid_.cells();
+    wallForce_.assign(nodes_.size(), Zero);
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        if (!(m(k) > 0) || !(node.V > 0)) continue;
+        const scalar water = values[4*size_t(k) + 1];
+        const scalar room = values[4*size_t(k) + 3];
+        const scalar beside = room - node.V;
+        const scalar part = min
+        (
+            ramp((water + node.V)/room, pressed, fullyPressed),
+            ramp
+            (
+                beside > 0 ? water/beside : 1, pressedBeside, fullyPressedBeside
+            )
+        );
+        if (part <= 0) continue;
+
+        // Gradient by least squares, weighted by mass
+        symmTensor A(Zero);
+        vector b(Zero);
+        for (label j = 0; j < nodes_.nNeighbours(); ++j)
+        {
+            const label neighbour = nodes_.neighbours(k)[j];
+            if (neighbour < 0 || !(m(neighbour) > 0)) continue;
+            vector dx(nodes_[neighbour].x - node.x);
+            for (label d = 0; d < cells.nDim(); ++d)
+            {
+                if (!cells.periodic(d)) continue;
+                const label axis = cells.axis(d);
+                const scalar length = cells.nCells(d)*cells.spacing(d);
+                dx[axis] -= length*std::round(dx[axis]/length);
+            }
+            A += m(neighbour)*sqr(dx);
+            b += m(neighbour)*(p(neighbour) - p(k))*dx;
+        }
+
+        // Of the solved directions only
+        const scalar scale = tr(A);
+        if (!(scale > 0)) continue;
+        if (cells.nDim() == 2)
+        {
+            symmTensor out(Zero);
+            out[cells.axis(2) == 0 ? 0 : cells.axis(2) == 1 ? 3 : 5] = scale;
+            A += out;
+        }
+        if (!(det(A) > 1e-6*pow3(scale))) continue;
+        const vector gradient(inv(A) & b);
+
+        vector R
+        (
+            p(k)*node.A - (node.T & gradient)
+          + cmptMultiply(node.W, gradient)
+        );
+        if (cells.nDim() == 2) R[cells.axis(2)] = 0;
+        static bool nor = getenv("NOR"); static bool any = getenv("ANYR"); if (!nor && p(k) > 0) wallForce_[k] = part*R;
+    }
+}
+
+
+Foam::mpm::nodeVector Foam::mpm::bodyWall::wallForce
+(
+    const bodyNodes::local& l
+) const
+{
+    nodeVector force{};
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        force[d] = wallForce_[l.number][grid_.cells().axis(d)];
+    }
+    return force;
+}
+
+
+void Foam::mpm::bodyWall::start(nodeMotion& nodes)
+{
+    const label n = nodes_.size();
+    const scalar h = grid_.cells().minSpacing();
+    std::vector<vector> momentum;
+    nodes_.gather(nodes.momentum, 1, momentum, mass_);
+
+    velocity_.assign(n, Zero);
+    ownVelocity_.assign(n, Zero);
+    inverseMass_.assign(n, Zero);
+    for (label k = 0; k < n; ++k)
+    {
+        // What walls hold does not move its mass
+        const bodyNodes::node& node = nodes_[k];
+        if (mass_[k] > 0)
+        {
+            momentum[k] =
+                product(node.free, momentum[k]) + mass_[k]*node.given;
+        }
+    }
+
+    for (slave& s : slaves_)
+    {
+        const bodyNodes::node& node = nodes_[s.number];
+        s.own =
+            s.first == s.last ? (s.noSlip ? 0 : 1)
+          : !s.noSlip && node.smooth && node.phi > -ownDepth*h
+         && (mass_[s.number]/rho0_ + node.V)*node.inverseVolume > ownFilling
+          ? ownPart : 0;
+    }
+
+    // Masses of the masters, with those of their slaves
+    std::vector<tensor> mass(n, Zero);
+    for (const label k : masters_) mass[k] = mass_[k]*tensor(I);
+    for (const slave& s : slaves_)
+    {
+        const scalar m = mass_[s.number];
+        if (!(m > 0)) continue;
+        for (label j = s.first; j < s.last; ++j)
+        {
+            const bodyNodes::source& from = sources_[j];
+            const scalar cell = rho0_/nodes_[from.node].inverseVolume;
+            const scalar missing = max
+            (
+                scalar(0), 1 - mass_[from.node]/(thin*cell)
+            );
+            const scalar rr = sqr(s.r) + (1 - sqr(s.r))*missing;
+            mass[from.node] += from.weight*m*withSigns
+                (factor(s, sqr(s.r) < 1 ? rr : sqr(s.r)), from.sign);
+        }
+    }
+    for (const label k : masters_)
+    {
+        const scalar scale = tr(mass[k]);
+        if (!(scale > 0)) continue;
+        if (grid_.nDim() == 2)
+        {
+            const label empty = grid_.cells().axis(2);
+            mass[k][4*empty] = scale;
+        }
+        inverseMass_[k] = inv(mass[k]);
+    }
+
+    for (load& l : projected_) l = load();
+    for (load& l : impulse_) l = load();
+
+    // From zero velocity: the body's part counts from the beginning
+    std::fill(fromBody_.begin(), fromBody_.end(), Zero);
+    fromBody_.resize(slaves_.size(), Zero);
+
+    // Nodes that are neither keep theirs
+    for (label k = 0; k < n; ++k)
+    {
+        if (mass_[k] > 0) velocity_[k] = momentum[k]/mass_[k];
+    }
+    for (const label k : masters_) velocity_[k] = Zero;
+    for (const slave& s : slaves_) velocity_[s.number] = Zero;
+    solve(momentum, bodyParts(), nodes, projected_);
+}
+
+
+void Foam::mpm::bodyWall::constrain
+(
+    nodeField<nodeVector>& velocity,
+    const bool homogeneous
+) const
+{
+    // Only differences of velocities, which have no momentum to share
+    if (!homogeneous || slaves_.empty()) return;
+
+    std::vector<vector> v;
+    std::vector<scalar> unused;
+    nodes_.gather(velocity, 0, v, unused);
+    for (const slave& s : slaves_)
+    {
+        v[s.number] = product
+        (
+            nodes_[s.number].free, fromMasters(s, v)
+        );
+    }
+    const lattice& cells = grid_.cells();
+    for (const bodyNodes::local& l : nodes_.locals())
+    {
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            velocity[l.grid][d] = v[l.number][cells.axis(d)];
+        }
+    }
+}
+
+
+void Foam::mpm::bodyWall::react(nodeMotion& nodes)
+{
+    std::vector<vector> v;
+    std::vector<scalar> unused;
+    nodes_.gather(nodes.velocity, 0, v, unused);
+
+    std::vector<vector> change(nodes_.size(), Zero);
+    bitSet follows(nodes_.size());
+    for (const label k : masters_) follows.set(k);
+    for (const slave& s : slaves_) follows.set(s.number);
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        if (!(mass_[k] > 0)) continue;
+        if (follows.test(k)) change[k] = mass_[k]*(v[k] - velocity_[k]);
+        else velocity_[k] = v[k];
+    }
+    solve(change, bodyParts(), nodes, impulse_);
+}
+
+
+void Foam::mpm::bodyWall::finish(const scalar, nodeMotion& nodes)
+{
+    react(nodes);
+}
+
+
+void Foam::mpm::bodyWall::push
+(
+    const label i,
+    const scalar deltaT,
+    const scalar projected,
+    scalar (&impulse)[6],
+    scalar (&resistance)[36]
+) const
+{
+    load J(impulse_[i]);
+    J.force += projected*projected_[i].force;
+    J.moment += projected*projected_[i].moment;
+    const point& centre = bodies_[i].motion().centre();
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        if (nodes_[k].body != i) continue;
+        J.force -= deltaT*wallForce_[k];
+        J.moment -= deltaT*((nodes_[k].x - centre) ^ wallForce_[k]);
+    }
+    for (direction d = 0; d < 3; ++d)
+    {
+        impulse[d] += J.force[d];
+        impulse[3 + d] += J.moment[d];
+    }
+
+    for (label motion = 0; motion < 6; ++motion)
+    {
+        vector V(Zero), Omega(Zero);
+        (motion < 3 ? V : Omega)[motion % 3] = 1;
+
+        // As solve() would, from rest
+        std::vector<vector> momentum(nodes_.size(), Zero);
+        std::vector<vector> v(nodes_.size(), Zero);
+        for (const slave& s : slaves_)
+        {
+            if (nodes_[s.number].body != i || !(mass_[s.number] > 0)) continue;
+            v[s.number] = partOfBody(s, V, Omega);
+            const vector given
+            (
+                -mass_[s.number]*(factor(s, s.r) & v[s.number])
+            );
+            for (label j = s.first; j < s.last; ++j)
+            {
+                const bodyNodes::source& from = sources_[j];
+                momentum[from.node] += from.weight*product(from.sign, given);
+            }
+        }
+        for (const label k : masters_)
+        {
+            v[k] = product
+                (nodes_[k].free, inverseMass_[k] & momentum[k]);
+        }
+        load sum;
+        auto add = [&](const label k)
+        {
+            sum.force += mass_[k]*v[k];
+            sum.moment += mass_[k]*((nodes_[k].x - centre) ^ v[k]);
+        };
+        for (const slave& s : slaves_)
+        {
+            if (!(mass_[s.number] > 0)) continue;
+            v[s.number] = product
+                (nodes_[s.number].free, v[s.number] + fromMasters(s, v));
+            add(s.number);
+        }
+        for (const label k : masters_) add(k);
+        for (direction d = 0; d < 3; ++d)
+        {
+            resistance[6*d + motion] += sum.force[d];
+            resistance[6*(3 + d) + motion] += sum.moment[d];
+        }
+    }
+}
+
+
+void Foam::mpm::bodyWall::findLoads
+(
+    const scalar deltaT,
+    const scalar projected
+)
+{
+    forAll(loads_, b)
+    {
+        loads_[b].force =
+            (impulse_[b].force + projected*projected_[b].force)/deltaT;
+        loads_[b].moment =
+            (impulse_[b].moment + projected*projected_[b].moment)/deltaT;
+    }
+
+    // The wall gave its force to the nodes
+    for (label k = 0; k < nodes_.size(); ++k)
+    {
+        const bodyNodes::node& node = nodes_[k];
+        loads_[node.body].force -= wallForce_[k];
+        loads_[node.body].moment -=
+            (node.x - bodies_[node.body].motion().centre()) ^ wallForce_[k];
+    }
+}
+
+
+size_t Foam::mpm::bodyWall::memory() const
+{
+    return
+        nodes_.memory() + sizeof(slave)*slaves_.capacity()
+      + sizeof(bodyNodes::source)*sources_.capacity()
+      + size_t(nodes_.size())
+       *(sizeof(scalar) + 4*sizeof(vector) + sizeof(tensor));
+}
+
+// ************************************************************************* //
