@@ -25,8 +25,8 @@ import numpy as np
 from PIL import Image
 from paraview import servermanager
 from paraview.simple import (
-    CellCenters, ColorBy, CreateRenderView, ExtractSurface, FeatureEdges,
-    GetColorTransferFunction, GetScalarBar, Hide, MergeBlocks,
+    CellCenters, CellDatatoPointData, Clip, ColorBy, CreateRenderView,
+    ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Hide, MergeBlocks,
     OpenFOAMReader, Plane, Render, SaveScreenshot, Show, Text, TrivialProducer)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
@@ -86,7 +86,8 @@ def openCase(case, clouds, decomposed):
             sys.exit(f"{case}: ParaView finds no {region}; there is "
                      + " ".join(available))
     reader.MeshRegions = ["internalMesh", *regions]
-    reader.CellArrays = []
+    reader.CellArrays = [n for n in reader.CellArrays.Available
+                         if n == "bodyDistance"]
     reader.LagrangianArrays = ["U"]
     return reader
 
@@ -187,6 +188,22 @@ def showSolids(surface, view, points, cellSize):
     display.Position = [0, 0, -3*cellSize]
 
 
+def showBodies(mesh, view, lift):
+    """Where the distance to bodies is negative, in grey"""
+    producer = TrivialProducer()
+    producer.GetClientSideObject().SetOutput(mesh)
+    producer.UpdatePipeline()
+    inside = Clip(Input=CellDatatoPointData(Input=producer),
+                  ClipType="Scalar", Scalars=["POINTS", "bodyDistance"],
+                  Value=0, Invert=1)
+    shown = ExtractSurface(Input=inside)
+    display = Show(shown, view)
+    display.SetRepresentationType("Surface")
+    paint(display, SOLID)
+    display.Position = lift
+    return shown
+
+
 def showSoil(points, view, pixelSize, lift):
     """In front of the water in its pores"""
     display = Show(points, view)
@@ -242,11 +259,11 @@ def main():
     pictures = []
 
     # One pass to know the colour scale and the spacing of the points
-    found, speeds = {}, []
+    found, meshesOf, speeds = {}, {}, []
     for time in times:
         reader.UpdatePipeline(time)
         clouds, meshes = split(servermanager.Fetch(reader))
-        found[time] = clouds
+        found[time], meshesOf[time] = clouds, meshes
         speeds += [np.linalg.norm(vtk_to_numpy(
             block.GetPointData().GetArray("U")), axis=1)
             for name, block in clouds
@@ -294,7 +311,9 @@ def main():
         reader.UpdatePipeline(time)
         label.Text = f"t = {time:.4g} s"
 
-        producers = []
+        producers = [
+            showBodies(mesh, view, lift) for mesh in meshesOf[time]
+            if mesh.GetCellData().HasArray("bodyDistance")]
         for name, block in blocks:
             counts[name] = counts.get(name, 0) + block.GetNumberOfPoints()
             producer = TrivialProducer()

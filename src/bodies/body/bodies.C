@@ -17,9 +17,17 @@ void Foam::mpm::bodies::checkThickness() const
         // Straight through the body from nodes just inside of its surface
         scalar thinnest = GREAT;
         point where(Zero);
-        for (label i = 0; i < grid_.nBoxNodes(); ++i)
+        const label nDim = grid_.nDim();
+        const int64_t n = int64_t(grid_.nBoxNodes()) << nDim;
+        for (int64_t i = 0; i < n; ++i)
         {
-            const point x(grid_.nodePosition(i));
+            // Nodes, and the middles between them
+            point x(grid_.nodePosition(label(i >> nDim)));
+            for (label d = 0; d < nDim; ++d)
+            {
+                const scalar half = 0.5*grid_.cells().spacing(d);
+                if ((i >> d) & 1) x[grid_.cells().axis(d)] += half;
+            }
             const scalar phi = b.distance(x);
             if (!(phi < 0 && phi > -h)) continue;
             const vector g(b.gradient(x, 0.5*h));

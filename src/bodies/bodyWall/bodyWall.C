@@ -5,6 +5,7 @@ License
 
 #include "bodyWall.H"
 #include "nodeBoundary.H"
+#include "PstreamReduceOps.H"
 #include "dictionaryEntries.H"
 #include <algorithm>
 
@@ -67,6 +68,10 @@ namespace
 
 void Foam::mpm::bodyWall::findFree()
 {
+    // Walls alone
+    std::vector<slave> kept;
+    slaves_.swap(kept);
+
     // What walls make of a velocity of one, and of none
     nodeField<nodeVector> one(grid_.nNodes(), nodeVector{1, 1, 1, 1});
     nodeField<nodeVector> none(grid_.nNodes(), nodeVector{});
@@ -82,6 +87,7 @@ void Foam::mpm::bodyWall::findFree()
         nodes_[k].free = free[k];
         nodes_[k].given = given[k];
     }
+    slaves_.swap(kept);
 }
 
 
@@ -376,8 +382,6 @@ void Foam::mpm::bodyWall::place()
 {
     nodes_.build(boundary_.folding(), boundary_.inverseVolume());
 
-    // Walls alone
-    slaves_.clear();
     findFree();
     findSlaves();
     fromBody_ = bodyParts();
@@ -506,6 +510,9 @@ Foam::mpm::nodeVector Foam::mpm::bodyWall::wallForce
 
 void Foam::mpm::bodyWall::start(nodeMotion& nodes)
 {
+    // Inlets open and close, and have a velocity that may change
+    if (returnReduce(!boundary_.inflowNodes().empty(), orOp<bool>())) findFree();
+
     const label n = nodes_.size();
     const scalar h = grid_.cells().minSpacing();
     std::vector<vector> momentum;

@@ -14,6 +14,7 @@ License
 #include "phaseRole.H"
 #include "dictionaryEntries.H"
 #include "uniformDimensionedFields.H"
+#include "zeroGradientFvPatchFields.H"
 #include "PstreamReduceOps.H"
 #include "debug.H"
 #include "registerSwitch.H"
@@ -589,6 +590,22 @@ void Foam::mpm::materialPointSystem::logImpacts() const
 }
 
 
+void Foam::mpm::materialPointSystem::updateBodyDistance()
+{
+    // Where it is farther than bodies know
+    const scalar far = (body::reach + 1)*grid_.cells().minSpacing();
+    volScalarField& distance = *bodyDistance_;
+    const vectorField& centres = mesh_.cellCentres();
+    forAll(centres, celli)
+    {
+        scalar phi;
+        bodies_->nearest(centres[celli], phi);
+        distance[celli] = min(phi, far);
+    }
+    distance.correctBoundaryConditions();
+}
+
+
 void Foam::mpm::materialPointSystem::makeBodies()
 {
     if (!properties_.found("bodies")) return;
@@ -610,6 +627,24 @@ void Foam::mpm::materialPointSystem::makeBodies()
     }
     bodies_->start(time_.value());
     for (materialPointCloud& cloud : clouds_) cloud.addBodies(*bodies_);
+    bodyDistance_.reset
+    (
+        new volScalarField
+        (
+            IOobject
+            (
+                "bodyDistance",
+                time_.timeName(),
+                mesh_,
+                IOobject::NO_READ,
+                IOobject::AUTO_WRITE
+            ),
+            mesh_,
+            dimensionedScalar(dimLength, Zero),
+            zeroGradientFvPatchScalarField::typeName
+        )
+    );
+    updateBodyDistance();
 }
 
 
@@ -1264,6 +1299,7 @@ void Foam::mpm::materialPointSystem::updateMeshFields()
     {
         cost_.start("fields on the mesh");
         for (materialPointCloud& cloud : clouds_) cloud.updateMeshFields();
+        if (bodies_.valid() && bodies_->anyMoves()) updateBodyDistance();
         cost_.stop();
         fieldsCurrent_ = true;
     }
