@@ -41,8 +41,8 @@ Foam::mpm::bodyContact::bodyContact
         const dictionary dict(all[b].wallOf(cloud));
         checkKeywords(dict, {"type", "frictionCoefficient"}, strict);
         noSlip_[b] =
-            readChoiceOrDefault(dict, "type", "friction", {"friction", "noSlip"})
-         == "noSlip";
+            dict.found("type")
+         && readChoice(dict, "type", {"friction", "noSlip"}) == "noSlip";
         if (dict.found("frictionCoefficient"))
         {
             if (noSlip_[b])

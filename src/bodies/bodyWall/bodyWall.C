@@ -370,8 +370,8 @@ Foam::mpm::bodyWall::bodyWall
         const dictionary dict(all[b].wallOf(cloud));
         checkKeywords(dict, {"type"}, strict);
         noSlip_[b] =
-            readChoiceOrDefault(dict, "type", "slip", {"slip", "noSlip"})
-         == "noSlip";
+            dict.found("type")
+         && readChoice(dict, "type", {"slip", "noSlip"}) == "noSlip";
     }
 }
 
