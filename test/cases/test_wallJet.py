@@ -499,7 +499,7 @@ def testRefused(tmp_path, figures, name):
 
 @pytest.mark.parametrize("entries, expect", [
     ({"cloud": "water"}, {"keyword": r"\bcloud\b", "value": r"\bwater\b",
-                          "allowed": "cloud of soil"}),
+                          "allowed": "a solid"}),
     ({"direction": (0, 1, 0)}, {"keyword": r"\bdirection\b",
                                 "value": r"\(0 1 0\)",
                                 "allowed": r"\(1 0 0\)"}),

@@ -366,6 +366,13 @@ void Foam::mpm::materialPointSystem::write()
             "cloud " + cloud.name() + " to " + time_.timePath()
         );
     }
+    if (bodyDistance_.valid())
+    {
+        writeOrStop
+        (
+            [&] { return bodyDistance_->write(); }, bodyDistance_->objectPath()
+        );
+    }
     writeState();
 }
 
