@@ -220,10 +220,11 @@ def floating(name, density, h, release):
         return
     # The box has risen as it was placed, and the water fallen by that
     y -= size[0]*release/length
-    crossing = np.nonzero(np.diff(np.sign(y)))[0]
-    period = 2*(data[crossing[1], 0] - data[crossing[0], 0])
-    yield "heave period, first, s", period, "stated"
-    yield "highest over release, %", 100*y[crossing[1]:].max()/release, "< 100"
+    t = data[:, 0]
+    trough = np.argmin(np.where(t < 1, y, np.inf))
+    yield "time to the first trough, s", t[trough], "stated"
+    yield "first trough over release, %", 100*y[trough]/release, "stated"
+    yield "highest later over release, %", 100*y[trough:].max()/release, "< 100"
 
 
 CONTENTS = {
