@@ -6,6 +6,7 @@ License
 #include "bodyContact.H"
 #include "nodeBoundary.H"
 #include "dictionaryEntries.H"
+#include <string>
 #include <unordered_map>
 
 namespace Foam
@@ -209,28 +210,37 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
 
 void Foam::mpm::bodyContact::writeState(dictionary& dict) const
 {
-    // A number of 64 bits, exact to 2^53
-    DynamicList<scalar> id, force;
+    // By name: a list would be read as binary where the state file is
+    dictionary forces;
     for (size_t k = 0; k < next_.size(); ++k)
     {
         if (!(next_[k] > 0)) continue;
-        id.append(scalar(nodes_.id(label(k))));
-        force.append(next_[k]);
+        const word name("node" + std::to_string(nodes_.id(label(k))));
+        forces.set(name, next_[k]);
     }
-    if (id.empty()) return;
-    dict.set("contactNodes", scalarList(id));
-    dict.set("contactForces", scalarList(force));
+    dict.set("contactForces", forces);
 }
 
 
 void Foam::mpm::bodyContact::readState(const dictionary& dict)
 {
-    if (!dict.found("contactNodes")) return;
-    const scalarList id(dict.get<scalarList>("contactNodes"));
-    const scalarList force(dict.get<scalarList>("contactForces"));
+    // None before the first step
+    const dictionary forces(subDictOrEmpty(dict, "contactForces"));
 
-    // Nodes take it when they are placed where the bodies are
-    forAll(id, i) read_[int64_t(id[i])] = force[i];
+    // Nodes take them when they are placed where the bodies are
+    for (const entry& e : forces)
+    {
+        const word name(e.keyword());
+        int64_t id;
+        if (!name.startsWith("node") || !Foam::read(name.substr(4), id))
+        {
+            FatalIOErrorInFunction(forces)
+                << "keyword " << name << " names no node." << nl
+                << "    Allowed: node followed by its number"
+                << exit(FatalIOError);
+        }
+        read_[id] = forces.get<scalar>(name);
+    }
     next_.clear();
     place();
 }
