@@ -25,7 +25,7 @@ namespace
 
     //- Part of its own velocity along a smooth surface that a slave keeps, how
     //  deep in the body it may be for that [cells], and how full the node
-    const scalar ownPart = getenv("OWN") ? atof(getenv("OWN")) : 0.7;
+    constexpr scalar ownPart = 0.7;
     constexpr scalar ownDepth = 0.5;
     constexpr scalar ownFilling = 0.9;
 
@@ -489,7 +489,7 @@ void Foam::mpm::bodyWall::press
           + cmptMultiply(node.W, gradient)
         );
         if (cells.nDim() == 2) R[cells.axis(2)] = 0;
-        static bool nor = getenv("NOR"); static bool any = getenv("ANYR"); if (!nor && p(k) > 0) wallForce_[k] = part*R;
+        if (p(k) > 0) wallForce_[k] = part*R;
     }
 }
 
