@@ -159,6 +159,39 @@ def testMomentumOfWaterAndBody(tmp_path, figures, transfer, density):
         (end.kinetic + 0.5*mass*velocity @ velocity)/start.kinetic, 1)
 
 
+def testABodyOnASpring(tmp_path, figures):
+    """OpenFOAM's restraints act on it: half a period of a mass on a spring,
+    away from the water"""
+    mass, stiffness, amplitude = 2.0, 2000.0, 0.05
+    half = np.pi*np.sqrt(mass/stiffness)
+    case = solved(Setup(
+        cells=(40, 40), h=0.02, g=(0, 0, 0), points=2,
+        regions={"puddle": box((0, 0), (0.1, 0.04))},
+        fluid={"soundSpeed": 20},
+        bodies={"ball": {
+            "type": "rigid", "surface": cylinder((0.5, 0.5), 0.06),
+            "motion": {
+                "mass": mass, "centreOfMass": (0.5, 0.5, 0.0),
+                "momentOfInertia": (1, 1, 1),
+                "restraints": {"spring": {
+                    "sixDoFRigidBodyMotionRestraint": "linearSpring",
+                    "anchor": (0.1, 0.5, 0.0),
+                    "refAttachmentPt": (0.5, 0.5, 0.0),
+                    "stiffness": stiffness, "damping": 0,
+                    "restLength": 0.4 - amplitude}}}}},
+        functions={"forces": {
+            "type": "materialPointForces", "cloud": "water",
+            "libs": '("libmpmFunctionObjects.so")',
+            "writeControl": "timeStep", "writeInterval": 1}},
+        energy=False).until(half), tmp_path)
+    x, speed = np.loadtxt(case.path/"postProcessing"/"forces"/"0"/"forces.dat")[
+        -1, [7, 10]]
+    figures.atMost("error of its way over the amplitude, %",
+                   100*abs((0.5 - x)/(2*amplitude) - 1), 0.1)
+    figures.atMost("speed at the turn over the largest, %", 100*abs(
+        speed)/(amplitude*np.sqrt(stiffness/mass)), 1)
+
+
 def turning(end=0.04):
     """A cylinder that goes through water, and turns"""
     return Setup(
@@ -302,6 +335,10 @@ MOTION = {"mass": 1, "centreOfMass": (0.5, 0.3, 0),
     ({"type": "floating", **{"surface": BALL["surface"]}}, {},
      "keyword type.*floating.*fixed.*prescribed.*rigid"),
     ({**BALL, "colour": "red"}, {}, "colour"),
+    ({"type": "fixed", "surface": {**BALL["surface"], "radios": 1}}, {},
+     "radios.*radius"),
+    ({"type": "fixed", "surface": cylinder((0.5, 0.3), -0.1)}, {},
+     "value -0.1.*Allowed: 0 < radius"),
     ({**BALL, "motion": {}}, {}, "keyword motion is given, but type is fixed"),
     ({"type": "fixed"}, {}, "surface"),
     ({"type": "fixed", "surface": cylinder((0.5, 0.3), 0.015)}, {},

@@ -5,54 +5,20 @@ License
 
 #include "body.H"
 #include "dictionaryEntries.H"
-#include "searchableSurface.H"
-#include "triSurfaceMesh.H"
+#include "closedSurface.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::mpm::body::sample(const backgroundGrid& grid)
+void Foam::mpm::body::sample
+(
+    const backgroundGrid& grid,
+    const bool strict
+)
 {
     const dictionary& dict = subDictOf(dict_, "surface");
-    const word type(dict.get<word>("type"));
-    const bool fromFile = type == "surface";
-    const wordList types(searchableSurface::dictConstructorTablePtr_->sortedToc());
-    if (!fromFile && !types.found(type))
-    {
-        wordList allowed(types);
-        allowed.append("surface");
-        readChoice(dict, "type", allowed);
-    }
-
-    autoPtr<searchableSurface> surface
-    (
-        searchableSurface::New
-        (
-            fromFile ? word(triSurfaceMesh::typeName) : type,
-            IOobject
-            (
-                fromFile ? dict.get<fileName>("file") : fileName(name_),
-                grid.mesh().time().constant(),
-                "triSurface",
-                grid.mesh().time(),
-                IOobject::MUST_READ,
-                IOobject::NO_WRITE,
-                false
-            ),
-            dict
-        )
-    );
-    if (!surface->hasVolumeType())
-    {
-        FatalIOErrorInFunction(dict)
-            << "body " << name_ << ": the surface "
-            << (fromFile ? string(surface->objectPath()) : string(type))
-            << " is not closed, and has no inside." << nl
-            << "    Allowed: a closed surface, as box or sphere"
-            << exit(FatalIOError);
-    }
-    bounds_ = surface->bounds();
-    if (bounds_.empty()) bounds_ = boundBox(surface->points(), false);
+    const closedSurface surface(grid.mesh().time(), dict, {}, strict);
+    bounds_ = surface.bounds();
 
     const lattice& cells = grid.cells();
     const scalar h = cells.minSpacing();
@@ -119,7 +85,7 @@ void Foam::mpm::body::sample(const backgroundGrid& grid)
             << " or less; a smaller body, or a coarser mesh"
             << exit(FatalIOError);
     }
-    distance_.reset(new signedDistance(*surface, region, spacing, cells));
+    distance_.reset(new signedDistance(surface.surface(), region, spacing, cells));
 }
 
 
@@ -141,7 +107,7 @@ Foam::mpm::body::body
     checkKeywords(dict_, known, strict);
 
     motion_ = bodyMotion::New(dict_, grid.cells(), strict);
-    sample(grid);
+    sample(grid, strict);
 }
 
 

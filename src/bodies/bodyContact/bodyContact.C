@@ -164,7 +164,6 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
     }
 
     for (load& l : impulse_) l = load();
-    const lattice& cells = grid_.cells();
     for (const label k : near_)
     {
         const bodyNodes::node& node = nodes_[k];
@@ -192,14 +191,7 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
         impulse_[node.body].moment +=
             (node.x - bodies_[node.body].motion().centre()) ^ lost;
     }
-    for (const bodyNodes::local& l : nodes_.locals())
-    {
-        if (!(mass_[l.number] > 0)) continue;
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            nodes.velocity[l.grid][d] = v[l.number][cells.axis(d)];
-        }
-    }
+    nodes_.scatter(v, nodes.velocity);
     forAll(loads_, b)
     {
         loads_[b].force = impulse_[b].force/deltaT;

@@ -449,21 +449,20 @@ void Foam::mpm::bodyNodes::sum(std::vector<scalar>& values)
 }
 
 
-void Foam::mpm::bodyNodes::reachWeights
+void Foam::mpm::bodyNodes::scatter
 (
-    const backgroundGrid& grid,
-    const scalar f,
-    scalar (&w)[4],
-    scalar (&g)[4]
-)
+    const std::vector<vector>& v,
+    nodeField<nodeVector>& field
+) const
 {
-    scalar q[4];
-    if (grid.shapeFunction() == linear::name) linear::reachWeights(f, w, q, g);
-    else if (grid.shapeFunction() == quadraticBSpline::name)
+    const lattice& cells = grid_.cells();
+    for (const local& l : local_)
     {
-        quadraticBSpline::reachWeights(f, w, q, g);
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            field[l.grid][d] = v[l.number][cells.axis(d)];
+        }
     }
-    else cubicBSpline::reachWeights(f, w, q, g);
 }
 
 

@@ -310,7 +310,7 @@ void Foam::mpm::bodyWall::solve
         velocity_[s.number] = product(node.free, v) + node.given;
         fromBody_[i] = fromBody[i];
     }
-    scatter(nodes.velocity);
+    nodes_.scatter(velocity_, nodes.velocity);
 
     // What the nodes did not get, their body did
     auto add = [&](const label k)
@@ -327,19 +327,6 @@ void Foam::mpm::bodyWall::solve
     };
     for (const label k : masters_) add(k);
     for (const slave& s : slaves_) add(s.number);
-}
-
-
-void Foam::mpm::bodyWall::scatter(nodeField<nodeVector>& velocity) const
-{
-    const lattice& cells = grid_.cells();
-    for (const bodyNodes::local& l : nodes_.locals())
-    {
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            velocity[l.grid][d] = velocity_[l.number][cells.axis(d)];
-        }
-    }
 }
 
 
@@ -611,14 +598,7 @@ void Foam::mpm::bodyWall::constrain
             nodes_[s.number].free, fromMasters(s, v)
         );
     }
-    const lattice& cells = grid_.cells();
-    for (const bodyNodes::local& l : nodes_.locals())
-    {
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            velocity[l.grid][d] = v[l.number][cells.axis(d)];
-        }
-    }
+    nodes_.scatter(v, velocity);
 }
 
 
@@ -632,13 +612,21 @@ void Foam::mpm::bodyWall::react(nodeMotion& nodes)
     bitSet follows(nodes_.size());
     for (const label k : masters_) follows.set(k);
     for (const slave& s : slaves_) follows.set(s.number);
+    const std::vector<vector> fromBody(bodyParts());
+    bool changed = fromBody != fromBody_;
     for (label k = 0; k < nodes_.size(); ++k)
     {
         if (!(mass_[k] > 0)) continue;
-        if (follows.test(k)) change[k] = mass_[k]*(v[k] - velocity_[k]);
-        else velocity_[k] = v[k];
+        if (!follows.test(k)) velocity_[k] = v[k];
+        else if (v[k] != velocity_[k])
+        {
+            change[k] = mass_[k]*(v[k] - velocity_[k]);
+            changed = true;
+        }
     }
-    solve(change, bodyParts(), nodes, impulse_);
+
+    // As after the drag in a scene without soil
+    if (changed) solve(change, fromBody, nodes, impulse_);
 }
 
 

@@ -282,7 +282,7 @@ Foam::wordList Foam::mpm::materialPointSystem::cloudNames() const
     if (!properties_.found("clouds"))
     {
         // The misspelt keyword is named, if there is one
-        wordList entries({"clouds", "interaction"});
+        wordList entries({"clouds", "interaction", "bodies"});
         for (const entry& e : properties_)
         {
             if (e.isDict()) entries.append(e.keyword());
@@ -302,7 +302,7 @@ Foam::wordList Foam::mpm::materialPointSystem::cloudNames() const
     // Of entries in the same dictionaries, and of fields on the mesh
     const wordList reserved
     ({
-        "clouds", "interaction", "case", "time", "complete", "mesh", "MPM",
+        "clouds", "interaction", "bodies", "case", "time", "complete", "mesh", "MPM",
         "gravity", "adjustTimeStep", "p", "phi"
     });
     forAll(names, i)
@@ -455,6 +455,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
             wordList known(names);
             known.append("clouds");
             known.append("interaction");
+            known.append("bodies");
             checkKeywords(properties_, known, true);
         }
         const phaseRole role = roleOf(subDictOf(properties_, name));

@@ -32,6 +32,35 @@ Foam::tensor Foam::mpm::prescribedBody::rotationAt(const scalar time) const
 }
 
 
+void Foam::mpm::prescribedBody::checkPlane(const scalar time) const
+{
+    if (empty_ < 0) return;
+
+    const vector way
+    (
+        displacement_.valid() ? displacement_->value(time) : vector(Zero)
+    );
+    vector tilt(turn_.valid() ? turn_->value(time) : vector(Zero));
+    tilt[empty_] = 0;
+    if (way[empty_] != 0)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword displacement is " << way << " m at " << time
+            << " s, out of the plane of the case." << nl
+            << "    Allowed: 0 in direction " << vector::componentNames[empty_]
+            << exit(FatalIOError);
+    }
+    if (mag(tilt) > 0)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword rotation is " << turn_->value(time) << " degrees at "
+            << time << " s, not about the normal of the case's plane." << nl
+            << "    Allowed: direction " << vector::componentNames[empty_]
+            << " only" << exit(FatalIOError);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::prescribedBody::prescribedBody
@@ -40,58 +69,29 @@ Foam::mpm::prescribedBody::prescribedBody
     const lattice& cells,
     const bool strict
 )
+:
+    dict_(subDictOf(dict, "motion")),
+    empty_(cells.nDim() < 3 ? cells.axis(2) : -1)
 {
-    const dictionary& motion = subDictOf(dict, "motion");
-    checkKeywords(motion, {"displacement", "rotation", "centre"}, strict);
+    checkKeywords(dict_, {"displacement", "rotation", "centre"}, strict);
 
-    if (motion.found("displacement"))
+    if (dict_.found("displacement"))
     {
-        displacement_ = Function1<vector>::New("displacement", motion);
+        displacement_ = Function1<vector>::New("displacement", dict_);
     }
-    if (motion.found("rotation"))
+    if (dict_.found("rotation"))
     {
-        turn_ = Function1<vector>::New("rotation", motion);
+        turn_ = Function1<vector>::New("rotation", dict_);
     }
     if (!displacement_.valid() && !turn_.valid())
     {
-        FatalIOErrorInFunction(motion)
+        FatalIOErrorInFunction(dict_)
             << "neither displacement nor rotation is given." << nl
             << "    Allowed: one of them or both, as functions of time, or type"
             << " fixed" << exit(FatalIOError);
     }
-    reference_ = motion.lookupOrDefault<point>("centre", Zero);
+    reference_ = dict_.lookupOrDefault<point>("centre", Zero);
     centre_ = reference_;
-
-    if (cells.nDim() < 3)
-    {
-        // What would leave the plane would be projected, unseen
-        const label empty = cells.axis(2);
-        for (const scalar t : {0.0, 0.371, 1.93, 7.7})
-        {
-            if (displacement_.valid() && displacement_->value(t)[empty] != 0)
-            {
-                FatalIOErrorInFunction(motion)
-                    << "keyword displacement is " << displacement_->value(t)
-                    << " m at " << t << " s, out of the plane of the case."
-                    << nl << "    Allowed: 0 in component " << empty
-                    << exit(FatalIOError);
-            }
-            if (turn_.valid())
-            {
-                vector out(turn_->value(t));
-                out[empty] = 0;
-                if (mag(out) > 0)
-                {
-                    FatalIOErrorInFunction(motion)
-                        << "keyword rotation is " << turn_->value(t)
-                        << " degrees at " << t
-                        << " s, not about the normal of the case's plane." << nl
-                        << "    Allowed: component " << empty << " only"
-                        << exit(FatalIOError);
-                }
-            }
-        }
-    }
 }
 
 
@@ -99,6 +99,7 @@ Foam::mpm::prescribedBody::prescribedBody
 
 void Foam::mpm::prescribedBody::start(const scalar time)
 {
+    checkPlane(time);
     centre_ = centreAt(time);
     rotation_ = rotationAt(time);
 
@@ -114,6 +115,7 @@ void Foam::mpm::prescribedBody::findVelocity
     const scalar deltaT
 )
 {
+    checkPlane(time);
     velocity_ = (centreAt(time) - centre_)/deltaT;
     angularVelocity_ = vectorOf(rotationAt(time) & rotation_.T())/deltaT;
 }

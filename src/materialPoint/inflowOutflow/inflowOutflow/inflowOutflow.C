@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "inflowOutflow.H"
+#include "reachWeights.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
 #include "volFields.H"
@@ -258,19 +259,7 @@ void Foam::mpm::inflowOutflow::reachWeights
     scalar (&g)[4]
 )
 {
-    scalar q[4];
-    if (grid.shapeFunction() == linear::name)
-    {
-        linear::reachWeights(f, w, q, g);
-    }
-    else if (grid.shapeFunction() == quadraticBSpline::name)
-    {
-        quadraticBSpline::reachWeights(f, w, q, g);
-    }
-    else
-    {
-        cubicBSpline::reachWeights(f, w, q, g);
-    }
+    mpm::reachWeights(grid, f, w, g);
 }
 
 

@@ -54,7 +54,7 @@ Foam::autoPtr<Foam::mpm::pointRegion> Foam::mpm::pointRegion::New
     auto found = dictionaryConstructorTablePtr_->cfind(name);
     if (found.found()) return found()(mesh, dict, strictKeywords);
 
-    wordList names(searchableRegion::types());
+    wordList names(closedSurface::types());
     if (!names.found(name))
     {
         names.append(dictionaryConstructorTablePtr_->sortedToc());
