@@ -16,6 +16,9 @@ Description
     Ctrl-C, SIGTERM and stopAt writeNow end the run after the step, with a
     restart written.
 
+See also
+    docs/theory.md
+
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
