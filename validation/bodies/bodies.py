@@ -1,18 +1,13 @@
 #!/usr/bin/env python3
 """Solid bodies against closed forms: still water over inclined floors, buoyancy,
-added mass, entry of wedges, floating boxes, blocks of soil that slide.
+added mass, entry of wedges, floating boxes, columns of sand on planes.
 
     ./bodies.py [--list] [name or pattern ...]
 
 Writes results/bodies.csv, a row for each run and figure; a run whose rows are
 there is not made again."""
 
-import argparse
-import csv
-import fnmatch
-import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -25,9 +20,9 @@ for place in ["etc/python", "test", "test/cases"]:
 
 import bodies as shapes  # noqa: E402
 from caseBuilder import G, RHO, Setup, box, hydrostatic  # noqa: E402
+from mpmfoam import figureTable  # noqa: E402
 
 RESULTS = HERE/"results"/"bodies.csv"
-FIELDS = ["run", "figure", "value", "asked", "holds", "commit"]
 
 
 def rms(U):
@@ -71,9 +66,12 @@ def floor(name, degrees, offset, h):
     ).until(2, 0.5))
     t = np.radians(degrees)
     normal = np.array([-np.sin(t), np.cos(t)])
-    noise, speed, deepest = [], [], []
-    for time in case.times[1:]:
+    noise, speed, deepest, height = [], [], [], []
+    for time in case.times:
         points = case.points(time)
+        height.append(points.centre[1])
+        if float(time) == 0:
+            continue
         phi = (points.x[:, :2] - through) @ normal
         depth = level - points.x[:, 1]
         wall = (phi < 1.5*h) & (depth > 1.5*h)
@@ -88,6 +86,54 @@ def floor(name, degrees, offset, h):
     yield "rms speed, most, mm/s", 1e3*max(speed), "<= 10"
     yield "rms speed at 2 s, mm/s", 1e3*speed[-1], "<= 10"
     yield "deepest point over h", min(deepest), ">= 0"
+    yield ("drift of the mean height of the water, % of the depth",
+           100*abs(np.array(height) - height[0]).max()/level, "<= 0.1")
+
+
+def plane(name, h, n=16):
+    """Still water over a plane inclined about two axes"""
+    level, through = 0.8*n*h, np.array([0.5*n*h, 0.5*n*h, 0.31*n*h])
+    normal = np.array([-0.4, -0.25, 1.0])
+    normal /= np.linalg.norm(normal)
+    u = np.cross(normal, [0, 1.0, 0])
+    u /= np.linalg.norm(u)
+    v = np.cross(normal, u)
+    far = 6*n*h
+    corners = [through + far*(a*u + b*v) - c*far*normal
+               for c in (1, 0) for a, b in [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
+    faces = [(1, 4, 3), (1, 3, 2), (5, 6, 7), (5, 7, 8)]
+    for i in range(1, 5):
+        j = i % 4 + 1
+        faces += [(i, j, j + 4), (i, j + 4, i + 4)]
+    # Outward, whichever way u and v turn
+    if np.dot(np.cross(u, v), normal) < 0:
+        faces = [f[::-1] for f in faces]
+    text = "".join("v {:.12g} {:.12g} {:.12g}\n".format(*c) for c in corners)
+    text += "".join("f %d %d %d\n" % f for f in faces)
+    case = solve(name, Setup(
+        cells=(n, n, n), h=h, points=2,
+        regions={"pool": hydrostatic((0, 0, 0), (n*h, n*h, level))},
+        bodies={"floor": {"type": "fixed",
+                          "surface": shapes.surface("floor.obj")}},
+        surfaces={"floor.obj": text}).until(0.5, 0.1))
+    noise, speed, deepest, height = [], [], [], []
+    for time in case.times:
+        points = case.points(time)
+        height.append(points.centre[2])
+        if float(time) == 0:
+            continue
+        phi = (points.x - through) @ normal
+        depth = level - points.x[:, 2]
+        wall = (phi < 1.5*h) & (depth > 1.5*h)
+        noise.append(np.sqrt(np.mean((points.p - RHO*G*depth)[wall]**2)))
+        speed.append(rms(points.U))
+        deepest.append(phi.min()/h)
+    yield ("noise at the wall, most, % of rho g H",
+           100*max(noise)/(RHO*G*level), "<= 2.5")
+    yield "rms speed, most, mm/s", 1e3*max(speed), "<= 10"
+    yield "deepest point over h", min(deepest), ">= 0"
+    yield ("drift of the mean height of the water, % of the depth",
+           100*abs(np.array(height) - height[0]).max()/level, "<= 0.1")
 
 
 def cylinder(name, h, offset):
@@ -227,6 +273,62 @@ def floating(name, density, h, release):
     yield "highest later over release, %", 100*y[trough:].max()/release, "< 100"
 
 
+# --- soil -----------------------------------------------------------------
+
+def column(name, degrees, h, friction, kind):
+    """Dry column on a plane inclined downwards to the right: a wall of the mesh
+    with tilted gravity, a body along the mesh with tilted gravity, an inclined
+    body. Run-out along the plane."""
+    size, end = np.array([0.12, 0.16]), 0.45
+    t = np.radians(degrees)
+    wall = {"frictionCoefficient": friction}
+    along, normal, g = np.array([1, 0]), np.array([0, 1]), (
+        G*np.sin(t), -G*np.cos(t), 0)
+    heel = np.array([0.2, 0 if kind == "wall" else 6*h])
+    length, height = 0.9, heel[1] + 0.24
+    if kind == "inclined":
+        along = np.array([np.cos(t), -np.sin(t)])
+        normal = np.array([np.sin(t), np.cos(t)])
+        g, heel, height = (0, -G, 0), np.array([0.2, 0.32]), 0.54
+    corners = [heel, heel + size[0]*along,
+               heel + size[0]*along + size[1]*normal, heel + size[1]*normal]
+    setup = Setup(
+        cells=(round(length/h), round(height/h)), h=h, points=2, g=g,
+        regions={}, mpm={"maxSoilSoundSpeed": 25},
+        soil={"DruckerPragerCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.7, "E0": 216, "n": 0.5, "nu": 0.2,
+            "phi": 31, "psi": 0}},
+        soilRegions={"sand": {"type": "surface", "file": '"sand.obj"'}},
+        surfaces={"sand.obj": shapes.prism([tuple(c) for c in corners])},
+        energy=False).until(end, end)
+    if kind == "wall":
+        setup.sides = {"ymin": ("wall", {"type": "frictional", **wall})}
+        setup.soilWall = "slip"
+    else:
+        setup.bodies = {"plane": {
+            "type": "fixed", "surface": shapes.surface("plane.obj"),
+            "soil": wall}}
+        setup.surfaces["plane.obj"] = shapes.prism(shapes.slope(
+            -degrees if kind == "inclined" else 0, heel))
+    case = solve(name, setup)
+    x = case.case.cloudField(case.times[-1], "soil", "x")[:, :2]
+    way = (x - heel) @ along
+    return np.quantile(way, 0.995), way.mean() - 0.5*size[0]
+
+
+def columns(name, degrees, h, friction=0.5):
+    found = {kind: column(f"{name}_{kind}", degrees, h, friction, kind)
+             for kind in ["wall", "aligned", "inclined"]}
+    for of, against in [("inclined", "wall"), ("aligned", "wall"),
+                        ("inclined", "aligned")]:
+        asked = "1 +- 3 %" if of == "inclined" else "stated"
+        other = "wall" if against == "wall" else "aligned body"
+        for i, figure in enumerate(["front", "mean way"]):
+            yield (f"{figure} on a body, {of}, over that on a {other}"
+                   .replace("a aligned", "an aligned"),
+                   found[of][i]/found[against][i], asked)
+
+
 CONTENTS = {
     **{f"floor{d:g}_h{h:g}_off{o:g}":
        (lambda n, d=d, h=h, o=o: floor(n, d, o, h))
@@ -237,10 +339,13 @@ CONTENTS = {
     **{f"turnedBox_h{h:g}": (lambda n, h=h: turnedBox(n, h))
        for h in [0.02, 0.01]},
     "sphere": lambda n: sphere(n, 0.025),
+    **{f"plane_h{h:g}": (lambda n, h=h: plane(n, h)) for h in [0.025]},
+    **{f"columns{d}_h{h:g}": (lambda n, d=d, h=h: columns(n, d, h))
+       for d, h in [(15, 0.01), (15, 0.005)]},
     **{f"addedMass_R{c}h": (lambda n, c=c: addedMass(n, c)) for c in [4, 8]},
     **{f"wedge{d}_h{h:g}{'_gravity' if g else ''}":
        (lambda n, d=d, h=h, g=g: wedge(n, d, h, g))
-       for d in [20, 30, 45] for h, g in [(0.01, False), (0.01, True)]},
+       for d in [20, 30, 45] for h, g in [(0.01, False), (0.01, True), (0.02, False)]},
     **{f"floating{r:g}_h{h:g}": (lambda n, r=r, h=h: floating(n, r, h, 0))
        for r in [0.05, 0.5] for h in [0.02, 0.01]},
     **{f"heave_h{h:g}": (lambda n, h=h: floating(n, 0.5, h, 0.03))
@@ -248,49 +353,5 @@ CONTENTS = {
 }
 
 
-def holds(value, asked):
-    """Of bounds and of values with a part in percent; empty for others"""
-    bound = re.match(r"([<>])=? ?([-\d.]+)$", asked)
-    if bound:
-        limit = float(bound[2])
-        return abs(value) <= limit if bound[1] == "<" else value >= limit
-    near = re.match(r"([\d.]+) \+- (\d+) %", asked)
-    if near:
-        return abs(value/float(near[1]) - 1) <= float(near[2])/100
-    return ""
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("patterns", nargs="*", default=["*"])
-    parser.add_argument("--list", action="store_true")
-    arguments = parser.parse_args()
-
-    rows = []
-    if RESULTS.is_file():
-        with RESULTS.open() as file:
-            rows = list(csv.DictReader(file))
-    done = {row["run"] for row in rows}
-    commit = subprocess.run(
-        ["git", "-C", str(REPOSITORY), "describe", "--always", "--dirty"],
-        capture_output=True, text=True, check=True).stdout.strip()
-    for name, run in CONTENTS.items():
-        if not any(fnmatch.fnmatch(name, p) for p in arguments.patterns):
-            continue
-        if arguments.list or name in done:
-            print(f"{'finished' if name in done else 'to do':9s} {name}")
-            continue
-        for figure, value, asked in run(name):
-            rows.append({"run": name, "figure": figure,
-                         "value": f"{value:.4g}", "asked": asked,
-                         "holds": holds(value, asked), "commit": commit})
-            print(f"{name}: {figure} {value:.4g} (asked {asked})", flush=True)
-        RESULTS.parent.mkdir(exist_ok=True)
-        with RESULTS.open("w", newline="") as file:
-            writer = csv.DictWriter(file, FIELDS)
-            writer.writeheader()
-            writer.writerows(rows)
-
-
 if __name__ == "__main__":
-    main()
+    figureTable.main(__doc__, HERE, RESULTS, CONTENTS)
