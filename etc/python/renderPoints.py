@@ -1,17 +1,31 @@
 #!/usr/bin/env pvpython
-"""Pictures of the points of a case, as ParaView reads them.
+"""Pictures of a case, of its points or of the surfaces of water and bed, as
+ParaView reads them.
 
-    $MPMFOAM_DIR/etc/pvpythonOffscreen $MPMFOAM_DIR/etc/python/renderPoints.py \\
-        [--case <dir>] [--cloud soil] [--output <dir>] 0.05 0.10 0.15
+    $MPMFOAM_DIR/etc/pvpythonOffscreen \\
+        $MPMFOAM_DIR/etc/python/renderPoints.py [--case <dir>] \\
+        [--cloud soil] [--output <dir>] [--show surface] 0.05 0.10 0.15
 
 One PNG per time (default: the last), <clouds>_t<time>.png: water coloured by
 speed, soil over it in the colour of sand, with the outline of the mesh and the
-time. In 2D what the mesh leaves out of its box is solid, and grey. A case
+time. In 2D what the mesh leaves out of its box is solid, and grey; in 3D walls
+inside the box are.
+
+--show surface draws instead what the fields on the mesh enclose: water, and
+the grains in it, where they fill half of the cells (the contour 0.5 of
+alpha.water + alpha.soil), and over it the bed, where grains fill half of what
+they do in the bed, darker where water fills more than half of its pores. What
+is thinner than a cell, drops and grains in suspension, is in the points alone.
+--show both draws those surfaces over the points: lines in 2D, and in 3D
+surfaces that one looks through. Files are <clouds>_surface_t<time>.png and
+<clouds>_both_t<time>.png; more than one --show makes pictures of each. A case
 without time directories of its own is read from its processor directories;
 --decomposed asks for that. --animation makes one moving picture,
 <clouds>.gif, of the times named (default: all) instead. Prints for each time
 how many points ParaView found:
-`<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`.
+`<time> s: <n> points, <file>`, or with two clouds `<n> points of <cloud>, ...`;
+with surfaces the volume [m3] that each encloses:
+`<time> s: ..., surface of water <V> m3, <file>`.
 """
 
 import argparse
@@ -25,15 +39,25 @@ import numpy as np
 from PIL import Image
 from paraview import servermanager
 from paraview.simple import (
-    CellCenters, CellDatatoPointData, Clip, ColorBy, CreateRenderView,
-    ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Hide, MergeBlocks,
-    OpenFOAMReader, Plane, Render, SaveScreenshot, Show, Text, TrivialProducer)
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+    CellDatatoPointData, Clip, ColorBy, CreateRenderView,
+    ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Hide,
+    HideUnusedScalarBars, OpenFOAMReader, Plane, Render, SaveScreenshot, Show,
+    Text, TrivialProducer)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkUnstructuredGrid)
+from vtkmodules.vtkFiltersCore import (
+    vtkAppendFilter, vtkCellDataToPointData, vtkContourFilter,
+    vtkPolyDataNormals)
+from vtkmodules.vtkFiltersGeneral import vtkClipDataSet
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 WIDTH = 1200        # pixels
 TEXT = [0.1, 0.1, 0.1]
 SAND = [0.80, 0.62, 0.36]
+WET_SAND = [0.62, 0.45, 0.24]
+LINE = [0.85, 0.10, 0.10]
 SOLID = [0.62, 0.62, 0.64]
 
 
@@ -45,6 +69,9 @@ def parse():
     parser.add_argument("--cloud", action="append", choices=["water", "soil"],
                         help="cloud to show, may be repeated (default: all of"
                              "\nthe case)")
+    parser.add_argument("--show", action="append",
+                        choices=["points", "surface", "both"],
+                        help="what to draw, may be repeated (default: points)")
     parser.add_argument("--output", type=Path,
                         help="directory of the pictures (default: the case)")
     parser.add_argument("--decomposed", action="store_true",
@@ -62,8 +89,9 @@ def parse():
     return parser.parse_args()
 
 
-def openCase(case, clouds, decomposed):
-    """Reader of the clouds named (None: all there are)"""
+def openCase(case, clouds, decomposed, surfaces=False):
+    """Reader of the clouds named (None: all there are), and of the fields that
+    surfaces are made of"""
     # ParaView takes the case directory from any file in it
     stub = case/"case.foam"
     stub.touch()
@@ -86,8 +114,15 @@ def openCase(case, clouds, decomposed):
             sys.exit(f"{case}: ParaView finds no {region}; there is "
                      + " ".join(available))
     reader.MeshRegions = ["internalMesh", *regions]
+    fields = ["bodyDistance"]
+    if surfaces:
+        fields += [f"{name}.{cloud}" for cloud in clouds
+                   for name in ("alpha", "U")]
+        for cloud in clouds:
+            if f"alpha.{cloud}" not in reader.CellArrays.Available:
+                sys.exit(f"{case}: ParaView finds no alpha.{cloud}")
     reader.CellArrays = [n for n in reader.CellArrays.Available
-                         if n == "bodyDistance"]
+                         if n in fields]
     reader.LagrangianArrays = ["U"]
     return reader
 
@@ -204,22 +239,145 @@ def showBodies(mesh, view, lift):
     return shown
 
 
-def showSoil(points, view, pixelSize, lift):
-    """In front of the water in its pores"""
-    display = Show(points, view)
-    display.SetRepresentationType("Points")
-    display.PointSize = pixelSize
-    paint(display, SAND)
-    display.Position = lift
-    return display
+def showHoles(surface, view):
+    """Walls inside the box of a 3D mesh, in grey"""
+    surface.UpdatePipeline()
+    walls = vtkUnstructuredGrid()
+    data = servermanager.Fetch(surface)
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    low, high = points.min(axis=0), points.max(axis=0)
+    tolerance = 1e-6*max(high - low)
+    walls.SetPoints(data.GetPoints())
+    walls.Allocate(1)
+    for i in range(data.GetNumberOfCells()):
+        cell = data.GetCell(i)
+        corners = vtk_to_numpy(cell.GetPoints().GetData())
+        flat = np.ptp(corners, axis=0) < tolerance
+        ends = (abs(corners[0] - low) < tolerance) \
+            | (abs(corners[0] - high) < tolerance)
+        if not (flat & ends).any():
+            walls.InsertNextCell(cell.GetCellType(), cell.GetPointIds())
+    if not walls.GetNumberOfCells():
+        return
+    display = Show(producerOf(walls), view)
+    display.SetRepresentationType("Surface")
+    light(display, SOLID)
 
 
-def showWater(points, view, maxSpeed, pixelSize):
-    display = Show(points, view)
-    display.SetRepresentationType("Points")
-    display.PointSize = pixelSize
-    ColorBy(display, ("POINTS", "U", "Magnitude"))
-    scale = GetColorTransferFunction("U")
+# --- surfaces ---------------------------------------------------------------
+
+def producerOf(data):
+    producer = TrivialProducer()
+    producer.GetClientSideObject().SetOutput(data)
+    producer.UpdatePipeline()
+    return producer
+
+
+def light(display, colour):
+    """One colour, in the light"""
+    display.ColorArrayName = ["POINTS", ""]
+    display.AmbientColor = display.DiffuseColor = colour
+    display.Ambient, display.Diffuse, display.Specular = 0.35, 0.7, 0.05
+
+
+def cellArray(mesh, name, default=0.0):
+    array = mesh.GetCellData().GetArray(name)
+    return vtk_to_numpy(array) if array \
+        else np.full(mesh.GetNumberOfCells(), default)
+
+
+def setArray(data, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+    array.SetName(name)
+    data.AddArray(array)
+
+
+def merged(meshes):
+    """One mesh of those of all ranks"""
+    append = vtkAppendFilter()
+    append.MergePointsOn()
+    for mesh in meshes:
+        append.AddInputData(mesh)
+    append.Update()
+    mesh = vtkUnstructuredGrid()
+    mesh.ShallowCopy(append.GetOutput())
+    return mesh
+
+
+def nodalFields(meshes):
+    """One mesh, with the means of its cells at its points: filled by liquid
+    and grains, grains, saturation of the pores and speed of the liquid (these
+    two weighted by what is there)"""
+    mesh = merged(meshes)
+    water, soil = cellArray(mesh, "alpha.water"), cellArray(mesh, "alpha.soil")
+    U = mesh.GetCellData().GetArray("U.water")
+    speed = np.linalg.norm(vtk_to_numpy(U), axis=1) if U \
+        else np.zeros_like(water)
+    for name, values in {"water": water, "soil": soil, "momentum": water*speed,
+                         }.items():
+        setArray(mesh.GetCellData(), name, values)
+    toPoints = vtkCellDataToPointData()
+    toPoints.SetInputData(mesh)
+    toPoints.Update()
+    mesh = vtkUnstructuredGrid()
+    mesh.ShallowCopy(toPoints.GetOutput())
+
+    data = mesh.GetPointData()
+    water, soil, momentum = (vtk_to_numpy(data.GetArray(n)).astype(float)
+                             for n in ("water", "soil", "momentum"))
+    setArray(data, "filled", water + soil)
+    setArray(data, "saturation",
+             water/np.maximum(1 - np.minimum(soil, 0.95), 0.05))
+    setArray(data, "speed", momentum/np.maximum(water, 1e-6))
+    return mesh
+
+
+def bedLevel(meshes):
+    """Half of the solid fraction of beds; nan without"""
+    alpha = np.concatenate([cellArray(m, "alpha.soil") for m in meshes])
+    if not alpha.max() > 0.1:
+        return float("nan")
+    return 0.5*float(np.percentile(alpha[alpha > 0.5*alpha.max()], 50))
+
+
+def enclosed(mesh, name, level):
+    """What a contour encloses, and its volume"""
+    clip = vtkClipDataSet()
+    clip.SetInputData(mesh)
+    clip.SetInputArrayToProcess(0, 0, 0, 0, name)
+    clip.SetValue(level)
+    clip.Update()
+    size = vtkCellSizeFilter()
+    size.SetInputData(clip.GetOutput())
+    size.ComputeVertexCountOff()
+    size.ComputeLengthOff()
+    size.ComputeAreaOff()
+    size.Update()
+    volume = size.GetOutput().GetCellData().GetArray("Volume")
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(clip.GetOutput())
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(surface.GetOutputPort())
+    normals.SetFeatureAngle(45)
+    normals.Update()
+    return normals.GetOutput(), \
+        float(vtk_to_numpy(volume).sum()) if volume else 0.0
+
+
+def contour(mesh, name, level):
+    """The contour itself, without what walls cut off"""
+    line = vtkContourFilter()
+    line.SetInputData(mesh)
+    line.SetInputArrayToProcess(0, 0, 0, 0, name)
+    line.SetValue(0, level)
+    line.Update()
+    return line.GetOutput()
+
+
+def colourBySpeed(display, view, name, maxSpeed):
+    ColorBy(display, ("POINTS", name, "Magnitude") if name == "U"
+            else ("POINTS", name))
+    scale = GetColorTransferFunction(name)
     scale.ApplyPreset("Viridis (matplotlib)", True)
     scale.VectorMode = "Magnitude"
     scale.RescaleTransferFunction(0, maxSpeed)
@@ -235,6 +393,86 @@ def showWater(points, view, maxSpeed, pixelSize):
     bar.AddRangeLabels = 1
     bar.RangeLabelFormat = bar.LabelFormat = "%.3g"
     display.SetScalarBarVisibility(view, True)
+
+
+def colourByWetness(display):
+    ColorBy(display, ("POINTS", "saturation"))
+    scale = GetColorTransferFunction("saturation")
+    scale.RGBPoints = [0.4, *SAND, 0.6, *WET_SAND]
+
+
+def showSurfaces(mesh, clouds, level, view, flat, lift, maxSpeed):
+    """Filled, in the light in 3D. Returns what is shown and the volumes"""
+    shown, volumes = [], {}
+    for name, field, value in [("water", "filled", 0.5),
+                               ("soil", "soil", level)]:
+        if name not in clouds or not np.isfinite(value):
+            continue
+        surface, volumes[name] = enclosed(mesh, field, value)
+        if not surface.GetNumberOfCells():
+            continue
+        producer = producerOf(surface)
+        display = Show(producer, view)
+        display.SetRepresentationType("Surface")
+        if name == "water":
+            colourBySpeed(display, view, "speed", maxSpeed)
+        else:
+            colourByWetness(display)
+            display.SetScalarBarVisibility(view, False)
+            display.Position = lift
+        if flat:
+            display.Ambient, display.Diffuse, display.Specular = 1, 0, 0
+        else:
+            display.Ambient, display.Diffuse = 0.35, 0.7
+            display.Specular = 0.05
+        shown.append(producer)
+    return shown, volumes
+
+
+def showContours(mesh, clouds, level, view, flat, lift):
+    """Over the points: lines in 2D, else what one looks through"""
+    shown, volumes = [], {}
+    for name, field, value, colour in [
+            ("water", "filled", 0.5, LINE), ("soil", "soil", level, TEXT)]:
+        if name not in clouds or not np.isfinite(value):
+            continue
+        volumes[name] = enclosed(mesh, field, value)[1]
+        surface = contour(mesh, field, value)
+        if not surface.GetNumberOfCells():
+            continue
+        producer = producerOf(surface)
+        display = Show(producer, view)
+        if flat:
+            # Seen from the side a surface is a line
+            display.SetRepresentationType("Wireframe")
+            display.LineWidth = 2
+            paint(display, colour)
+            display.Position = [2*v for v in lift]
+        else:
+            display.SetRepresentationType("Surface")
+            light(display, SAND if name == "soil" else [0.4, 0.6, 0.9])
+            display.Opacity = 0.35
+        shown.append(producer)
+    return shown, volumes
+
+
+# --- points -----------------------------------------------------------------
+
+def showSoil(points, view, pixelSize, lift):
+    """In front of the water in its pores"""
+    display = Show(points, view)
+    display.SetRepresentationType("Points")
+    display.PointSize = pixelSize
+    paint(display, SAND)
+    display.Position = lift
+    return display
+
+
+def showWater(points, view, maxSpeed, pixelSize):
+    display = Show(points, view)
+    display.SetRepresentationType("Points")
+    display.PointSize = pixelSize
+    colourBySpeed(display, view, "U", maxSpeed)
     return display
 
 
@@ -246,9 +484,12 @@ def main():
     # Pictures of a film leave no files, and replace none
     frames = tempfile.TemporaryDirectory() if arguments.animation else None
     output = Path(frames.name) if frames else target
-    reader = openCase(case, arguments.cloud, arguments.decomposed)
-    shown = "_".join(r.split("/")[1] for r in reader.MeshRegions
-                     if r.startswith("lagrangian/"))
+    modes = arguments.show or ["points"]
+    surfaces = modes != ["points"]
+    reader = openCase(case, arguments.cloud, arguments.decomposed, surfaces)
+    cloudNames = [r.split("/")[1] for r in reader.MeshRegions
+                  if r.startswith("lagrangian/")]
+    names = "_".join(cloudNames)
 
     available = list(reader.TimestepValues)
     if not available:
@@ -256,7 +497,6 @@ def main():
     times = [min(available, key=lambda t: abs(t - wanted))
              for wanted in arguments.times] \
         or (available if arguments.animation else available[-1:])
-    pictures = []
 
     # One pass to know the colour scale and the spacing of the points
     found, meshesOf, speeds = {}, {}, []
@@ -284,18 +524,23 @@ def main():
     up = upAxis(case)
     pixels = setCamera(view, meshPoints, cellSize, up, arguments.window)
 
-    surface = ExtractSurface(Input=MergeBlocks(Input=reader))
+    surface = ExtractSurface(Input=producerOf(merged(meshes)))
     outline = Show(FeatureEdges(Input=surface, BoundaryEdges=0,
                                 FeatureAngle=30), view)
     outline.AmbientColor = outline.DiffuseColor = TEXT
     outline.LineWidth = 1.5
-    if isFlat(meshPoints, cellSize):
+    flat = isFlat(meshPoints, cellSize)
+    if flat:
         showSolids(surface, view, meshPoints, cellSize)
+    else:
+        showHoles(surface, view)
+    # Of the first time: grains that have spread are no bed
+    level = bedLevel(meshesOf[times[0]]) if surfaces else float("nan")
 
     # In front of the water as the camera sees it
     towards = np.array(view.CameraPosition) - np.array(view.CameraFocalPoint)
     lift = list(cellSize*towards/np.linalg.norm(towards)) \
-        if isFlat(meshPoints, cellSize) else [0, 0, 0]
+        if flat else [0, 0, 0]
 
     label = Text()
     labelDisplay = Show(label, view)
@@ -303,44 +548,59 @@ def main():
     labelDisplay.FontSize = 16
     labelDisplay.Color = TEXT
 
-    for time in times:
-        blocks = [(name, b) for name, b in found[time]
-                  if b.GetNumberOfPoints()]
-        counts = {}
-        view.ViewTime = time
-        reader.UpdatePipeline(time)
-        label.Text = f"t = {time:.4g} s"
+    for mode in modes:
+        shown = names if mode == "points" else f"{names}_{mode}"
+        pictures = []
+        for time in times:
+            blocks = [(name, b) for name, b in found[time]
+                      if b.GetNumberOfPoints()]
+            counts = {}
+            view.ViewTime = time
+            reader.UpdatePipeline(time)
+            label.Text = f"t = {time:.4g} s"
 
-        producers = [
-            showBodies(mesh, view, lift) for mesh in meshesOf[time]
-            if mesh.GetCellData().HasArray("bodyDistance")]
-        for name, block in blocks:
-            counts[name] = counts.get(name, 0) + block.GetNumberOfPoints()
-            producer = TrivialProducer()
-            producer.GetClientSideObject().SetOutput(block)
-            producer.UpdatePipeline()
-            points = vtk_to_numpy(block.GetPoints().GetData())
-            size = max(1.5, pointSpacing(points, corners)*pixels)
-            if name == "soil":
-                showSoil(producer, view, size, lift)
-            else:
-                showWater(producer, view, maxSpeed, size)
-            producers.append(producer)
+            producers = [
+                showBodies(mesh, view, lift) for mesh in meshesOf[time]
+                if mesh.GetCellData().HasArray("bodyDistance")]
+            volumes = {}
+            if mode != "points":
+                mesh = nodalFields(meshesOf[time])
+                more, volumes = \
+                    showSurfaces(mesh, cloudNames, level, view, flat, lift,
+                                 maxSpeed) \
+                    if mode == "surface" \
+                    else showContours(mesh, cloudNames, level, view, flat, lift)
+                producers += more
+            for name, block in blocks:
+                counts[name] = counts.get(name, 0) + block.GetNumberOfPoints()
+                if mode == "surface":
+                    continue
+                producer = producerOf(block)
+                points = vtk_to_numpy(block.GetPoints().GetData())
+                size = max(1.5, pointSpacing(points, corners)*pixels)
+                if name == "soil":
+                    showSoil(producer, view, size, lift)
+                else:
+                    showWater(producer, view, maxSpeed, size)
+                producers.append(producer)
 
-        # The first rendering of a view moves its camera
-        Render(view)
-        setCamera(view, meshPoints, cellSize, up, arguments.window)
-        path = output/f"{shown}_t{time:.10g}.png"
-        SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
-        pictures.append(path)
-        for producer in producers:
-            Hide(producer, view)
-        number = ", ".join(f"{n} points of {name}" if len(counts) > 1
-                           else f"{n} points" for name, n in counts.items())
-        print(f"{time:.10g} s: {number or '0 points'}, {path}")
+            # The first rendering of a view moves its camera
+            Render(view)
+            setCamera(view, meshPoints, cellSize, up, arguments.window)
+            path = output/f"{shown}_t{time:.10g}.png"
+            SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
+            pictures.append(path)
+            for producer in producers:
+                Hide(producer, view)
+            HideUnusedScalarBars(view)
+            number = ", ".join(f"{n} points of {name}" if len(counts) > 1
+                               else f"{n} points" for name, n in counts.items())
+            enclosing = "".join(f", surface of {n} {V:.6g} m3"
+                                for n, V in volumes.items())
+            print(f"{time:.10g} s: {number or '0 points'}{enclosing}, {path}")
 
-    if arguments.animation:
-        animate(pictures, target/f"{shown}.gif", arguments.animation)
+        if arguments.animation:
+            animate(pictures, target/f"{shown}.gif", arguments.animation)
 
 
 def animate(pictures, path, seconds):

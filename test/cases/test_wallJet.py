@@ -293,6 +293,44 @@ def render(case, output, *arguments):
     return result.stdout
 
 
+def testMonitor(serial, figures):
+    """foamMonitor names the curves by the last line of comment"""
+    paths = sorted((serial.path/"postProcessing").glob("*/*/*.dat"))
+    figures.atLeast("time series", len(paths), 4)
+    for path in paths:
+        lines = path.read_text().splitlines()
+        names = [line for line in lines if line.startswith("#")][-1].split()
+        figures.equal(f"{path.name}: first words", names[:2], ["#", "Time"])
+        figures.equal(f"{path.name}: columns without a name",
+                      len(lines[-1].split()) - (len(names) - 1), 0)
+
+
+@needsParaView
+def testSurfaces(serial, tmp_path, figures):
+    """What the contours enclose: the bed is there, and all that is filled"""
+    text = render(serial, tmp_path, "--show", "surface", "--show", "both",
+                  "0.3")
+    enclosed = {n: float(v) for n, v in re.findall(
+        r"surface of (\w+) (\S+) m3", text)}
+    found = clouds(serial, "0.3")
+    volumes = {
+        "soil": found["soil"].mass.sum()/2650*1.695,
+        "water": found["water"].mass.sum()/1000
+        + found["soil"].mass.sum()/2650}
+    for name, volume in volumes.items():
+        figures.atMost(f"{name}: volume off, part of it",
+                       abs(enclosed[name]/volume - 1), 0.05)
+    for mode in ("surface", "both"):
+        figures.holds(f"picture of {mode}",
+                      (tmp_path/f"water_soil_{mode}_t0.3.png").exists())
+
+    import matplotlib.image
+    image = matplotlib.image.imread(
+        tmp_path/"water_soil_surface_t0.3.png")[..., :3]
+    sand = np.abs(image - [0.62, 0.45, 0.24]).max(axis=-1) < 0.03
+    figures.atLeast("pixels of wet sand", int(sand.sum()), 500)
+
+
 @needsParaView
 def testPicture(serial, tmp_path, figures):
     """Both clouds in one picture: sand where there is sand, solids in grey"""
