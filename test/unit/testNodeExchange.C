@@ -46,7 +46,7 @@ TEST_CASE("nodeExchange: four ranks in one node", "[.][ranks]")
         return ((1 + id % 15) >> rank) & 1;
     };
     DynamicList<label> nodes;
-    List<int64_t> ids(2*nIds, int64_t(0));
+    DynamicList<int64_t> ids;
     nodeField<scalar> field(2*nIds, 0.0);
     label n = 0;
     for (label id = 0; id < nIds; ++id)
@@ -57,11 +57,17 @@ TEST_CASE("nodeExchange: four ranks in one node", "[.][ranks]")
             const label node = (7*n + me) % (2*nIds);
             nodes.append(node);
             field[node] = image ? 0 : partOf(me, id);
-            ids[n++] = id;
+            ids.append(id);
+            ++n;
         }
     }
-    ids.setSize(n);
-    const nodeExchange exchange(nodes, ids);
+
+    // Any rank may have any of them
+    const neighbourRanks neighbours(identity(nRanks));
+    std::vector<nodeExchange::candidate> candidates;
+    forAll(nodes, i) candidates.push_back({ids[i], nodes[i]});
+    std::vector<std::vector<nodeExchange::candidate>> all(nRanks, candidates);
+    const nodeExchange exchange(neighbours, all);
     const auto start(field);
     exchange.sum(field);
 

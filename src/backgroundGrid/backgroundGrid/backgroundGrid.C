@@ -5,7 +5,6 @@ License
 
 #include "backgroundGrid.H"
 #include "Pstream.H"
-#include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "bitSet.H"
 #include <algorithm>
@@ -101,82 +100,30 @@ void Foam::mpm::backgroundGrid::buildBox()
 
 void Foam::mpm::backgroundGrid::exchangeCellOwners()
 {
+    neighbours_.reset(new neighbourRanks(*lattice_, lower_, nNodes_));
+
+    // Each rank gets the cells that lie in its box, with all images
+    List<DynamicList<label>> cells(neighbours_->size());
+    forAll(cells, r)
+    {
+        neighbours_->forShared
+        (
+            r,
+            [&](const label mine, const label theirs)
+            {
+                if (ownCell(mine)) cells[r].append(theirs);
+            }
+        );
+    }
+    const labelListList found(neighbours_->exchange(cells));
+
     cellRank_.setSize(nBoxNodes());
     cellRank_ = missing;
-
-    // Lattice indices of the cells of each rank that may lie in my box
-    List<List<index3>> cells(Pstream::nProcs());
-
-    if (Pstream::parRun())
+    forAll(found, r)
     {
-        List<Pair<index3>> boxes(Pstream::nProcs());
-        boxes[Pstream::myProcNo()] = Pair<index3>(lower_, nNodes_);
-        Pstream::gatherList(boxes);
-        Pstream::scatterList(boxes);
-
-        PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
-        for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+        for (const label cell : found[r])
         {
-            DynamicList<index3> inside;
-            for (label celli = 0; celli < mesh().nCells(); ++celli)
-            {
-                const index3& i = lattice_->cellIndex(celli);
-                bool in = true;
-                for (label d = 0; d < nDim(); ++d)
-                {
-                    const label j = i[d] - boxes[rank].first()[d];
-                    in = in
-                     && (
-                            lattice_->periodic(d)
-                         || (j >= 0 && j < boxes[rank].second()[d])
-                        );
-                }
-                if (in) inside.append(i);
-            }
-            UOPstream to(rank, buffers);
-            to << inside;
-        }
-        buffers.finishedSends();
-        for (label rank = 0; rank < Pstream::nProcs(); ++rank)
-        {
-            UIPstream from(rank, buffers);
-            from >> cells[rank];
-        }
-    }
-    else
-    {
-        cells[0].setSize(mesh().nCells());
-        forAll(cells[0], celli) cells[0][celli] = lattice_->cellIndex(celli);
-    }
-
-    // Each cell marks all of its periodic images that lie in the box
-    forAll(cells, rank)
-    {
-        for (const index3& cell : cells[rank])
-        {
-            index3 first, last;
-            for (label d = 0; d < 3; ++d)
-            {
-                // Few cells may repeat more than once within the margin
-                const label n = lattice_->nCells(d);
-                const bool wrap = d < nDim() && lattice_->periodic(d);
-                last[d] = wrap ? (margin + n - 1)/n : 0;
-                first[d] = -last[d];
-            }
-            index3 w;
-            for (w[2] = first[2]; w[2] <= last[2]; ++w[2])
-            for (w[1] = first[1]; w[1] <= last[1]; ++w[1])
-            for (w[0] = first[0]; w[0] <= last[0]; ++w[0])
-            {
-                index3 i;
-                bool in = true;
-                for (label d = 0; d < 3; ++d)
-                {
-                    i[d] = cell[d] + w[d]*lattice_->nCells(d) - lower_[d];
-                    in = in && i[d] >= 0 && i[d] < nNodes_[d];
-                }
-                if (in) cellRank_[index(i)] = rank;
-            }
+            cellRank_[cell] = neighbours_->ranks()[r];
         }
     }
 }
@@ -423,55 +370,62 @@ void Foam::mpm::backgroundGrid::buildExchange()
         }
     }
 
-    // Only those can have copies that are near another rank or a cyclic end
-    DynamicList<label> nodes;
-    DynamicList<int64_t> ids;
-    bool shared = Pstream::parRun();
+    // The same on each rank, with room for the ghost nodes outside of the
+    // lattice
+    int64_t nIds = 1;
     for (label d = 0; d < nDim(); ++d)
     {
-        shared = shared || lattice_->periodic(d);
+        nIds *= lattice_->nCells(d) + 2*margin + 2;
     }
-
-    if (shared)
+    auto globalId = [&](const label node)
     {
-        // The same on each rank, with room for the ghost nodes outside of the
-        // lattice
-        int64_t nIds = 1;
-        for (label d = 0; d < nDim(); ++d)
+        const index3 i = coordinate(node);
+        int64_t id = 0;
+        for (label d = nDim() - 1; d >= 0; --d)
         {
-            nIds *= lattice_->nCells(d) + 2*margin + 2;
+            label g = i[d] + lower_[d];
+            const label n = lattice_->nCells(d);
+            if (lattice_->periodic(d)) g = ((g % n) + n) % n;
+            id = id*(n + 2*margin + 2) + (g + margin);
         }
-        auto globalId = [&](const label node)
-        {
-            const index3 i = coordinate(node);
-            int64_t id = 0;
-            for (label d = nDim() - 1; d >= 0; --d)
-            {
-                label g = i[d] + lower_[d];
-                const label n = lattice_->nCells(d);
-                if (lattice_->periodic(d)) g = ((g % n) + n) % n;
-                id = id*(n + 2*margin + 2) + (g + margin);
-            }
-            return id;
-        };
-        for (const label node : used)
-        {
-            nodes.append(node);
-            ids.append(globalId(node));
-        }
-        forAll(twinOf_, i)
-        {
-            nodes.append(nBoxNodes() + i);
-            ids.append
-            (
-                globalId(twinOf_[i].first())
-              + nIds*(1 + int64_t(twinOf_[i].second()))
-            );
-        }
-    }
-    exchange_.reset(new nodeExchange(nodes, ids));
+        return id;
+    };
 
-    if (shared)
+    // Twins follow each other by node
+    Map<label> firstTwin;
+    forAll(twinOf_, i) firstTwin.insert(twinOf_[i].first(), i);
+
+    // Only those can have copies that lie in the box of another rank, or in
+    // another place of the own one
+    std::vector<std::vector<nodeExchange::candidate>>
+        candidates(neighbours_->size());
+    const label own = neighbours_->place(Pstream::myProcNo());
+    forAll(neighbours_->ranks(), r)
+    {
+        neighbours_->forShared
+        (
+            r,
+            [&](const label node, const label theirs)
+            {
+                if (!used[node] || (r == own && node == theirs)) return;
+                const int64_t id = globalId(node);
+                candidates[r].push_back({id, node});
+
+                label i = firstTwin.lookup(node, twinOf_.size());
+                for (; i < twinOf_.size() && twinOf_[i].first() == node; ++i)
+                {
+                    candidates[r].push_back
+                    ({
+                        id + nIds*(1 + int64_t(twinOf_[i].second())),
+                        nBoxNodes() + i
+                    });
+                }
+            }
+        );
+    }
+    exchange_.reset(new nodeExchange(*neighbours_, candidates));
+
+    if (!exchange_->idle())
     {
         share_.assign(nNodes(), 1);
         exchange_->sum(share_);

@@ -5,8 +5,6 @@ License
 
 #include "nodeExchange.H"
 #include "Pstream.H"
-#include "PstreamBuffers.H"
-#include "ListOps.H"
 #include <algorithm>
 #include <map>
 
@@ -14,70 +12,81 @@ License
 
 Foam::mpm::nodeExchange::nodeExchange
 (
-    const labelUList& localNodes,
-    const List<int64_t>& globalIds
+    const neighbourRanks& neighbours,
+    std::vector<std::vector<candidate>>& candidates
 )
 {
-    // Copies on this rank, and one primary node per global id
-    std::map<int64_t, DynamicList<label>> byId;
-    forAll(localNodes, i)
+    // In the order of the ids, which is the same on all ranks
+    for (std::vector<candidate>& list : candidates)
     {
-        byId[globalIds[i]].append(localNodes[i]);
+        std::sort
+        (
+            list.begin(), list.end(),
+            [](const candidate& a, const candidate& b)
+            {
+                return a.id != b.id ? a.id < b.id : a.node < b.node;
+            }
+        );
     }
 
+    // Copies on this rank
+    const label own = neighbours.place(Pstream::myProcNo());
     DynamicList<labelList> images;
-    for (const auto& entry : byId)
+    DynamicList<label> group;
+    const std::vector<candidate>& here = candidates[own];
+    for (size_t i = 0; i < here.size(); ++i)
     {
-        if (entry.second.size() > 1) images.append(entry.second);
+        if (group.empty() || group.last() != here[i].node)
+        {
+            group.append(here[i].node);
+        }
+        if (i + 1 < here.size() && here[i + 1].id == here[i].id) continue;
+        if (group.size() > 1) images.append(group);
+        group.clear();
     }
     images_.transfer(images);
 
-    if (!Pstream::parRun()) return;
-
-    // Everyone sends the ids in use; std::map keeps them in ascending order,
-    // so that the intersection has the same order on both sides
-    List<int64_t> mine(byId.size());
-    label n = 0;
-    for (const auto& entry : byId) mine[n++] = entry.first;
-
-    PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
-    for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+    // The first copy of each is sent
+    List<DynamicList<int64_t>> ids(neighbours.size());
+    forAll(ids, r)
     {
-        if (rank == Pstream::myProcNo()) continue;
-        UOPstream to(rank, buffers);
-        to.write
+        if (r == own) continue;
+        std::vector<candidate>& list = candidates[r];
+        list.erase
         (
-            reinterpret_cast<const char*>(mine.cdata()),
-            std::streamsize(mine.size()*sizeof(int64_t))
+            std::unique
+            (
+                list.begin(), list.end(),
+                [](const candidate& a, const candidate& b)
+                {
+                    return a.id == b.id;
+                }
+            ),
+            list.end()
         );
+        ids[r].reserve(label(list.size()));
+        for (const candidate& c : list) ids[r].append(c.id);
     }
-    labelList sizes;
-    buffers.finishedSends(sizes);
+    const List<List<int64_t>> theirs(neighbours.exchange(ids));
 
     DynamicList<label> ranks;
     DynamicList<labelList> nodes;
-    for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+    DynamicList<label> common;
+    forAll(theirs, r)
     {
-        if (rank == Pstream::myProcNo()) continue;
-
-        List<int64_t> theirs(sizes[rank]/label(sizeof(int64_t)));
-        UIPstream from(rank, buffers);
-        from.read
-        (
-            reinterpret_cast<char*>(theirs.data()),
-            std::streamsize(theirs.size()*sizeof(int64_t))
-        );
-
-        DynamicList<label> common;
-        for (const int64_t id : theirs)
+        if (r == own) continue;
+        common.clear();
+        auto c = candidates[r].cbegin();
+        for (const int64_t id : theirs[r])
         {
-            const auto found = byId.find(id);
-            if (found != byId.end()) common.append(found->second[0]);
+            while (c != candidates[r].cend() && c->id < id) ++c;
+            if (c == candidates[r].cend()) break;
+            if (c->id == id) common.append(c->node);
         }
         if (common.size())
         {
-            ranks.append(rank);
-            nodes.append(labelList(common));
+            ranks.append(neighbours.ranks()[r]);
+            nodes.append(common);
         }
     }
     ranks_.transfer(ranks);

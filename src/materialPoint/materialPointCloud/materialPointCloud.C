@@ -4,17 +4,14 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "materialPointCloud.H"
-#include "bodies.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
-#include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
 #include "constrainedWallFvPatchVectorField.H"
 #include "frictionalWall.H"
 #include "patchTypes.H"
 #include "OSspecific.H"
-#include <algorithm>
 
 namespace Foam
 {
@@ -28,9 +25,6 @@ namespace mpm
 
 namespace
 {
-    //- Distance to the wall of a point that was put back, in cells
-    const Foam::scalar wallGap = 1e-9;
-
     //- The file of the velocity of a cloud, which must be there
     Foam::IOobject velocityFile
     (
@@ -281,42 +275,6 @@ bool Foam::mpm::materialPointCloud::findCell
         }
     }
     return false;
-}
-
-
-Foam::mpm::index3 Foam::mpm::materialPointCloud::returnFromWall
-(
-    const label point
-)
-{
-    const lattice& cells = grid_.cells();
-    const index3 from = grid_.coordinate(points_.cell()[point]);
-    const index3 to = boxCoordinate(point);
-
-    // Clamp the direction that suffices, else all
-    index3 clampTo = from;
-    for (label d = 0; d < grid_.nDim(); ++d)
-    {
-        if (to[d] == from[d]) continue;
-        index3 trial = to;
-        trial[d] = from[d];
-        if (grid_.cellRank(grid_.index(trial)) != backgroundGrid::missing)
-        {
-            clampTo = trial;
-            break;
-        }
-    }
-
-    for (label d = 0; d < grid_.nDim(); ++d)
-    {
-        if (clampTo[d] == to[d]) continue;
-        const label i = clampTo[d] + grid_.lower(d);
-        const scalar gap = (to[d] < clampTo[d] ? wallGap : 1 - wallGap);
-        points_.column(x_ + d)[point] =
-            cells.origin(d) + (i + gap)*cells.spacing(d);
-    }
-    ++counters_.wallContacts;
-    return clampTo;
 }
 
 
@@ -605,231 +563,6 @@ Foam::mpm::materialPointCloud::startMotion(const vector& up)
 }
 
 
-void Foam::mpm::materialPointCloud::putOutOfBodies()
-{
-    const bitSet& nearCells = leader().nearBodies();
-    const lattice& cells = grid_.cells();
-    const label nDim = grid_.nDim();
-    const scalar h = cells.minSpacing();
-    const label* cell = points_.cell();
-    const size_t nMovers = movers_.size();
-
-    for (label p = 0; p < size(); ++p)
-    {
-        if (!nearCells.test(cell[p])) continue;
-        point at(position(p));
-        scalar phi;
-        const label b = bodies_->nearest(at, phi);
-        if (!(phi < 0)) continue;
-
-        const vector g((*bodies_)[b].gradient(at, 0.5*h));
-        if (!(mag(g) > SMALL)) continue;
-        at += (1e-6*h - phi)*g/mag(g);
-        for (label d = 0; d < nDim; ++d)
-        {
-            points_.column(x_ + d)[p] = at[cells.axis(d)];
-        }
-        movers_.push_back(p);
-        ++putOut_;
-    }
-
-    // In the order of the points, each once
-    if (movers_.size() > nMovers)
-    {
-        std::sort(movers_.begin(), movers_.end());
-        movers_.erase
-            (std::unique(movers_.begin(), movers_.end()), movers_.end());
-    }
-}
-
-
-void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
-{
-    if (bodies_)
-    {
-        cost_.start("bodies: points put out");
-        putOutOfBodies();
-    }
-    cost_.start("relocate and sort");
-
-    const lattice& cells = grid_.cells();
-    const label nDim = grid_.nDim();
-
-    // Rank -1: out of the domain, through that patch
-    struct departure { label point; label rank; label patch; };
-    std::vector<departure> departures;
-    bool inactive = false;
-
-    for (size_t m = 0; m < movers_.size(); ++m)
-    {
-        const label p = movers_[m];
-
-        // Movers are too far apart for the processor to see them coming
-        if (m + 8 < movers_.size())
-        {
-            const label next = movers_[m + 8];
-            for (label d = 0; d < nDim; ++d) __builtin_prefetch(x(d) + next);
-            __builtin_prefetch(points_.cell() + next, 1);
-            __builtin_prefetch(points_.tile() + next, 1);
-        }
-
-        bool finite = true;
-        for (label d = 0; d < nDim; ++d)
-        {
-            finite = finite && std::isfinite(x(d)[p]);
-        }
-        // The time step is checked for non-finite values as a whole
-        if (!finite) continue;
-
-        index3 i = boxCoordinate(p);
-        bool inBox = true;
-        for (label d = 0; d < nDim; ++d)
-        {
-            inBox = inBox && i[d] >= 0 && i[d] < grid_.nNodes(d) - 1;
-        }
-        if (!inBox)
-        {
-            FatalErrorInFunction
-                << "cloud " << name() << ": a point moved across more than "
-                << backgroundGrid::margin << " cells in one time step of "
-                << deltaT << " s, to " << position(p) << '.' << nl
-                << "    The time step is too large or the flow unstable:"
-                << " lower maxCo (or deltaT if adjustTimeStep is no). Where"
-                << " the log has warned of density or of maxSoilSoundSpeed,"
-                << " raise soundSpeed or that."
-                << exit(FatalError);
-        }
-
-        if (grid_.cellRank(grid_.index(i)) == backgroundGrid::missing)
-        {
-            const label patch = boundary_.beyondOpening(grid_.index(i));
-            if (patch >= 0)
-            {
-                departures.push_back(departure{p, -1, patch});
-                continue;
-            }
-            i = returnFromWall(p);
-        }
-        const label rank = grid_.cellRank(grid_.index(i));
-
-        // Across a cyclic boundary
-        bool wrapped = false;
-        for (label d = 0; d < nDim; ++d)
-        {
-            if (!cells.periodic(d)) continue;
-            const label g = i[d] + grid_.lower(d);
-            const label n = cells.nCells(d);
-            if (g >= 0 && g < n) continue;
-
-            scalar& xd = points_.column(x_ + d)[p];
-            xd += (g < 0 ? 1 : -1)*n*cells.spacing(d);
-            wrapped = true;
-        }
-        if (wrapped)
-        {
-            i = boxCoordinate(p);
-            for (label d = 0; d < nDim; ++d)
-            {
-                // Rounding may land on the far end itself
-                const label g = i[d] + grid_.lower(d);
-                if (cells.periodic(d) && g >= cells.nCells(d))
-                {
-                    points_.column(x_ + d)[p] = cells.origin(d)
-                      + (cells.nCells(d) - wallGap)*cells.spacing(d);
-                    --i[d];
-                }
-            }
-        }
-
-        if (rank == Pstream::myProcNo())
-        {
-            setCell(p, i);
-            inactive = inactive || !order_.active(points_.cell()[p]);
-        }
-        else
-        {
-            departures.push_back(departure{p, rank, -1});
-        }
-    }
-    movers_.clear();
-
-    // Removal puts the last point into the gap: from the back to the front
-    std::sort
-    (
-        departures.begin(),
-        departures.end(),
-        [](const departure& a, const departure& b) { return a.point > b.point; }
-    );
-
-    // What moves to another rank and leaves there in the same step may be the
-    // fastest of all: it must not be counted here any more
-    const bool byRegion = open_.valid() && open_->anyRegion();
-
-    const label nColumns = points_.nColumns();
-    List<DynamicList<scalar>> outgoing(Pstream::nProcs());
-    List<scalar> buffer(nColumns);
-
-    for (const departure& d : departures)
-    {
-        if (d.rank < 0)
-        {
-            leave(d.point, open_.valid() ? open_->outletOfPatch(d.patch) : -1);
-        }
-        else
-        {
-            extremeLeft_ = extremeLeft_ || (byRegion && extreme(d.point));
-            points_.pack(d.point, buffer.data());
-            outgoing[d.rank].append(buffer);
-            points_.remove(d.point);
-        }
-    }
-
-    if (Pstream::parRun())
-    {
-        PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
-        forAll(outgoing, rank)
-        {
-            if (outgoing[rank].size())
-            {
-                UOPstream to(rank, buffers);
-                to << outgoing[rank];
-            }
-        }
-        labelList sizes;
-        buffers.finishedSends(sizes);
-        forAll(sizes, rank)
-        {
-            if (!sizes[rank]) continue;
-            UIPstream from(rank, buffers);
-            const List<scalar> incoming(from);
-            for (label k = 0; k < incoming.size(); k += nColumns)
-            {
-                points_.append(incoming.cdata() + k, 0);
-                const label p = points_.size() - 1;
-                setCell(p, boxCoordinate(p));
-                inactive = inactive || !order_.active(points_.cell()[p]);
-                extremeLeft_ = extremeLeft_ || (byRegion && extreme(p));
-            }
-        }
-    }
-
-    if (open_.valid())
-    {
-        leaveByRegion();
-        if (extremeLeft_) findExtremes();
-        enter(deltaT, inactive);
-    }
-    else if (extremeLeft_) findExtremes();
-    extremeLeft_ = false;
-
-    ++stepCount_;
-    const bool sort = stepCount_ % settings_.sortInterval == 0;
-    if (sort || inactive) activate(sort);
-
-    cost_.stop();
-}
-
-
 Foam::point Foam::mpm::materialPointCloud::position(const label p) const
 {
     point result(Zero);
@@ -842,124 +575,6 @@ Foam::point Foam::mpm::materialPointCloud::position(const label p) const
         result[grid_.cells().axis(2)] = grid_.cells().midPlane();
     }
     return result;
-}
-
-
-bool Foam::mpm::materialPointCloud::extreme(const label p) const
-{
-    scalar sqr = 0;
-    for (label d = 0; d < grid_.nDim(); ++d) sqr += Foam::sqr(v(d)[p]);
-
-    // But for rounding
-    return sqr >= (1 - 1e-9)*sums_.maxSpeedSqr;
-}
-
-
-void Foam::mpm::materialPointCloud::leave(const label p, const label outlet)
-{
-    extremeLeft_ = extremeLeft_ || extreme(p);
-    counters_.left.add(mass()[p]);
-
-    if (open_.valid())
-    {
-        open_->leave(outlet, stepCount_, points_.column(id_)[p], mass()[p]);
-        if (!open_->recycle())
-        {
-            points_.park(p);
-            return;
-        }
-    }
-    points_.remove(p);
-}
-
-
-void Foam::mpm::materialPointCloud::leaveByRegion()
-{
-    if (!open_->anyRegion()) return;
-
-    const std::vector<char>& marks = open_->marks();
-
-    // The last point fills the gap: from the back to the front
-    for (label p = size() - 1; p >= 0; --p)
-    {
-        const label cell = points_.cell()[p];
-        if (!(marks[cell] & inflowOutflow::outletRegion)) continue;
-
-        const label outlet = open_->outletAt(position(p), grid_.meshCell(cell));
-        if (outlet >= 0) leave(p, outlet);
-    }
-}
-
-
-void Foam::mpm::materialPointCloud::enter
-(
-    const scalar deltaT,
-    bool& inactive
-)
-{
-    PtrList<inlet>& inlets = open_->inlets();
-
-    for (inlet& in : inlets)
-    {
-        in.advance(deltaT);
-
-        while (in.due())
-        {
-            const scalar distance = in.takeLayer();
-            const scalarList ids
-            (
-                open_->takeIds(label(in.places().size()))
-            );
-            const nodeVector velocity = in.velocity();
-            const label first = size();
-
-            label n = 0;
-            for (const inlet::place& place : in.places()) n += place.own;
-            points_.resize(first + n);
-
-            scalarList volume(n), depth(n);
-            label p = first;
-            forAll(ids, k)
-            {
-                const inlet::place& place = in.places()[k];
-                if (!place.own) continue;
-
-                for (label d = 0; d < grid_.nDim(); ++d)
-                {
-                    points_.column(x_ + d)[p] =
-                        d == in.zone().direction()
-                      ? in.coordinate(place, distance)
-                      : place.x[d];
-                    points_.column(v_ + d)[p] = velocity[d];
-                }
-                points_.column(id_)[p] = ids[k];
-
-                const index3 i = boxCoordinate(p);
-                if (!grid_.ownCell(grid_.index(i)))
-                {
-                    FatalErrorInFunction
-                        << "cloud " << name() << ", inlet " << in.name()
-                        << ": a layer enters " << distance
-                        << " m behind its patch, beyond the first cell." << nl
-                        << "    Material moves further than a cell in a time"
-                        << " step of " << deltaT << " s: raise soundSpeed above"
-                        << " the inlet's speed." << exit(FatalError);
-                }
-                setCell(p, i);
-                inactive = inactive || !order_.active(points_.cell()[p]);
-                volume[p - first] = place.volume;
-                depth[p - first] = place.depth;
-                ++p;
-            }
-            setEntered(in, first, volume, depth);
-            for (p = first; p < size(); ++p) in.entered().add(mass()[p]);
-        }
-    }
-    if (inlets.size())
-    {
-        sums_.maxSpeedSqr =
-            max(sums_.maxSpeedSqr, sqr(open_->speed(time().value())));
-    }
 }
 
 

@@ -475,30 +475,35 @@ void Foam::mpm::materialPointCloud::checkPoints() const
         }
     }
 
-    // Each id once, over all ranks: rank id mod n has all points of that id
+    // Each id once, over all ranks: each rank gets all points of some ids. By
+    // blocks of ids, as points of a rank have few of these blocks.
     struct place { scalar id; label rank; label point; };
     std::vector<place> places;
     places.reserve(size());
     if (Pstream::parRun())
     {
         const label nRanks = Pstream::nProcs();
+        const scalar block = 4096;
         List<DynamicList<scalar>> outgoing(nRanks);
         List<DynamicList<label>> points(nRanks);
         for (label p = 0; p < size(); ++p)
         {
-            const label rank = label(std::fmod(ids[p], scalar(nRanks)));
+            const label rank = std::fmod(std::floor(ids[p]/block), nRanks);
             outgoing[rank].append(ids[p]);
             points[rank].append(p);
         }
         PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
         for (label rank = 0; rank < nRanks; ++rank)
         {
+            if (outgoing[rank].empty()) continue;
             UOPstream to(rank, buffers);
             to << outgoing[rank] << points[rank];
         }
-        buffers.finishedSends();
+        labelList sizes;
+        buffers.finishedSends(sizes);
         for (label rank = 0; rank < nRanks; ++rank)
         {
+            if (!sizes[rank]) continue;
             UIPstream from(rank, buffers);
             const List<scalar> theirs(from);
             const labelList theirPoints(from);
