@@ -50,14 +50,14 @@ double wall() { return seconds(CLOCK_MONOTONIC); }
 //- CPU time of the calls that make a step
 struct stepCost
 {
-    enum part { setDeltaT, p2g, stress, nodes, g2p, relocate, nParts };
+    enum part { setDeltaT, p2g, nodes, g2p, relocate, nParts };
 
     static const char* name(const int part)
     {
         static const char* names[nParts] =
         {
-            "setDeltaT", "particlesToGrid", "updateStress", "updateNodes",
-            "gridToParticles", "relocate"
+            "setDeltaT", "particlesToGrid", "moveNodes", "gridToParticles",
+            "relocate"
         };
         return names[part];
     }
@@ -84,9 +84,7 @@ void step(mpm::materialPointSystem& points, Time& runTime, stepCost& cost)
     points.setDeltaT(runTime);
     points.advance(runTime);
     lap(stepCost::setDeltaT);
-    points.updateStress();
-    lap(stepCost::stress);
-    points.updateNodes();
+    points.moveNodes();
     lap(stepCost::nodes);
     points.gridToParticles();
     lap(stepCost::g2p);

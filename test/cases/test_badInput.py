@@ -406,6 +406,10 @@ CASES = [
         "allowed": r"(?s)Valid.*" + words(
             "linear", "quadraticBSpline", "cubicBSpline")},
         setup=mpm(shapeFunction="quadratic")),
+    Bad("unknownMomentum", {
+        "file": SOLUTION, "keyword": "momentum", "value": "projection",
+        "allowed": "explicit"},
+        setup=mpm(momentum="projection")),
     Bad("unknownRegion", {
         "file": REGIONS, "keyword": r"\btype\b", "value": r"\bball\b",
         "allowed": r"(?s)Valid.*" + words(
@@ -732,7 +736,7 @@ def testDefaultsWork(tmp_path, figures):
     full.mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5,
                 "smoothing": True, "volumeCorrection": True,
                 "overlapCorrection": False,
-                "sortInterval": 10, "logInterval": 10,
+                "sortInterval": 10, "logInterval": 10, "momentum": "explicit",
                 "strictKeywords": True}
     full.placement = {"placement": "regular"}
     bare = base()

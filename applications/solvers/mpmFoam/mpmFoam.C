@@ -90,8 +90,9 @@ int main(int argc, char *argv[])
         points.setDeltaT(runTime);
         points.advance(runTime);
 
-        points.updateStress();
-        points.updateNodes();
+        // How: keyword momentum of fvSolution/MPM
+        points.moveNodes();
+
         points.gridToParticles();
         points.relocate();
 

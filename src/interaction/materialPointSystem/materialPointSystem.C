@@ -4,11 +4,11 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "listed.H"
-#include "effectsTable.H"
 #include "materialPointSystem.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "bodies.H"
+#include "momentumStep.H"
 #include "phasePair.H"
 #include "functionNeeds.H"
 #include "phaseRole.H"
@@ -19,8 +19,6 @@ License
 #include "debug.H"
 #include "registerSwitch.H"
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -113,7 +111,7 @@ void Foam::mpm::materialPointSystem::readSettings()
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
             "volumeCorrection", "overlapCorrection", "maxSoilSoundSpeed",
             "pressureForm", "logInterval", "strictKeywords", "gravity",
-            "relaxation"
+            "relaxation", "momentum"
         },
         settings_.strictKeywords
     );
@@ -227,6 +225,12 @@ void Foam::mpm::materialPointSystem::readForces()
 }
 
 
+Foam::vector Foam::mpm::materialPointSystem::gravityAt(const scalar time) const
+{
+    return gravityInTime_.valid() ? gravityInTime_->value(time) : g_;
+}
+
+
 void Foam::mpm::materialPointSystem::setForces(const scalar deltaT)
 {
     // At mid-step
@@ -234,10 +238,7 @@ void Foam::mpm::materialPointSystem::setForces(const scalar deltaT)
 
     if (forced_)
     {
-        const vector common
-        (
-            gravityInTime_.valid() ? gravityInTime_->value(time) - g_ : Zero
-        );
+        const vector common(gravityAt(time) - g_);
         const vector gradient
         (
             pressureGradient_.valid() ? pressureGradient_->value(time) : Zero
@@ -509,88 +510,6 @@ void Foam::mpm::materialPointSystem::makeClouds()
 }
 
 
-void Foam::mpm::materialPointSystem::logBed(const Time& runTime) const
-{
-    // Where the surface of the bed has to be found for it, it costs half a step,
-    // and the nodes have their sums at write times only
-    bool followed = false;
-    for (const phasePair& pair : pairs_)
-    {
-        followed = followed || pair.followsSurface();
-    }
-    soilCloud::bedState bed{};
-    if
-    (
-        (followed || runTime.writeTime())
-     && solids_[0]->bed(bed) && bed.stress > 0
-    )
-    {
-        // The top row holds what is thinner than this (rowStress of
-        // bedLoadModel)
-        const scalar part = bed.movable/grid_.cells().minSpacing();
-        Info<< solids_[0]->name() << ": stress on the bed " << bed.stress
-            << " Pa (mean), which can move " << bed.movable << " m of it, "
-            << part << " cells: bed load is "
-            << (part < 0.25 ? "thinner than the grid resolves" : "resolved")
-            << nl;
-    }
-}
-
-
-void Foam::mpm::materialPointSystem::logDensity() const
-{
-    // The percentile only where it may be too large: more than one point
-    // in a hundred is
-    const scalar most = 0.03;
-    const scalar* J = liquid_->J();
-    label nAbove = 0;
-    for (label p = 0; p < liquid_->size(); ++p)
-    {
-        nAbove += mag(1 - J[p]) > most*J[p];
-    }
-    const scalar variation = returnReduce
-    (
-        nAbove > 0.01*liquid_->size() ? liquid_->densityVariation() : 0,
-        maxOp<scalar>()
-    );
-    if (variation > most)
-    {
-        Info<< "--> " << liquid_->name() << ": the density varies by "
-            << 100*variation << " % (99th percentile); raise soundSpeed above "
-            << liquid_->fluid().soundSpeed() << " m/s for less" << nl;
-    }
-}
-
-
-void Foam::mpm::materialPointSystem::logImpacts() const
-{
-    // Softened soil that meets at such a speed stores the impact, instead of
-    // yielding to it, and throws it back
-    const scalar cap = settings_.maxSoilSoundSpeed;
-    const scalar most = cap/3;
-    for (const soilCloud* solid : solids_)
-    {
-        const scalar fastest = solid->globalMaxSpeed();
-        if (!(fastest > most)) continue;
-
-        const scalar nFaster =
-            returnReduce(scalar(solid->nFaster(most)), sumOp<scalar>());
-        const scalar share = nFaster/max(int64_t(1), solid->globalSize());
-
-        // As for a liquid: single grains in the air do not matter
-        if (share > 0.01)
-        {
-            Info<< "--> " << solid->name() << ": " << 100*share
-                << " % of the points are faster"
-                << " than a third of maxSoilSoundSpeed " << cap
-                << " m/s (the fastest: " << fastest << " m/s); impacts"
-                << " bounce like rubber. Raise maxSoilSoundSpeed above "
-                << 3*fastest << " m/s, or leave it out" << nl;
-        }
-    }
-}
-
-
 void Foam::mpm::materialPointSystem::updateBodyDistance()
 {
     // Where it is farther than bodies know
@@ -646,6 +565,24 @@ void Foam::mpm::materialPointSystem::makeBodies()
         )
     );
     updateBodyDistance();
+}
+
+
+void Foam::mpm::materialPointSystem::makeMomentum()
+{
+    momentum_ = momentumStep::New
+    (
+        control_,
+        momentumStep::scene
+        {
+            clouds_, liquid_, solids_, pairs_, bodies_.get(),
+            [this]()
+            {
+                return gravityAt(time_.value() - 0.5*time_.deltaTValue());
+            },
+            cost_
+        }
+    );
 }
 
 
@@ -792,7 +729,7 @@ Foam::scalar Foam::mpm::materialPointSystem::nextWriteTime()
 void Foam::mpm::materialPointSystem::addLimits()
 {
     limits_.reset(new stepLimits(maxCo_));
-    for (materialPointCloud& cloud : clouds_) cloud.addLimits(*limits_);
+    momentum_->addLimits(*limits_);
 
     limits_->addMaximum
     (
@@ -878,6 +815,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     makeClouds();
     makeBodies();
     readForces();
+    makeMomentum();
     findFieldControls();
     findWriteIntervals();
     writeTimes_.setSize(writeIntervals_.size(), -GREAT);
@@ -921,90 +859,6 @@ Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
         << "there is no cloud " << name << nl << "    Clouds of this case: "
         << listed(names) << exit(FatalIOError);
     return clouds_[0];
-}
-
-
-void Foam::mpm::materialPointSystem::reportEffects() const
-{
-    const lattice& cells = grid_.cells();
-    OStringStream spacing;
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        spacing << (d ? " x " : "") << cells.spacing(d);
-    }
-
-    Info<< nl << "Background grid" << nl
-        << "    " << returnReduce(int64_t(mesh_.nCells()), sumOp<int64_t>())
-        << " cells of " << spacing.str().c_str() << " m, " << cells.nDim()
-        << "D, " << grid_.shapeFunction() << nl << nl
-        << "Effects" << nl;
-
-    effectsTable table;
-    for (const materialPointCloud& cloud : clouds_) cloud.effects(table);
-    for (const phasePair& pair : pairs_) pair.effects(table);
-    if (pairs_.empty())
-    {
-        table.add
-        (
-            "coupling", false, clouds_.size() == 1 ? "one cloud" : "no liquid"
-        );
-    }
-    OStringStream names;
-    for (label b = 0; bodies_.valid() && b < bodies_->size(); ++b)
-    {
-        names
-            << (b ? ", " : "") << (*bodies_)[b].name() << " ("
-            << (*bodies_)[b].motion().type() << ')';
-    }
-    table.add
-    (
-        "bodies", bodies_.valid(),
-        bodies_.valid()
-      ? string(names.str()) : string("materialPointProperties/bodies")
-    );
-    table.add
-    (
-        "body forces", forced_,
-        forced_ ? "beside gravity of constant/g" : "gravity alone"
-    );
-    table.add
-    (
-        "relaxation", settings_.relaxationDamping > 0,
-        settings_.relaxationDamping > 0
-      ? "until " + Foam::name(settings_.relaxationUntil) + " s"
-      : string("fvSolution/MPM/relaxation")
-    );
-    table.add
-    (
-        "time step",
-        string
-        (
-            time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
-          ? "auto" : "set"
-        ),
-        "maxCo " + Foam::name(maxCo_)
-    );
-    table.print(Info);
-
-    Info<< nl << "Memory" << nl;
-    for (const materialPointCloud& cloud : clouds_)
-    {
-        const scalar n = max(int64_t(1), cloud.globalSize());
-        scalar points = cloud.pointMemory(), nodes = cloud.nodeMemory();
-        reduce(points, sumOp<scalar>());
-        reduce(nodes, sumOp<scalar>());
-        Info<< "    " << cloud.name() << ": " << points/n
-            << " bytes per point, " << nodes/1e6 << " MB on nodes, mass "
-            << cloud.globalMass() << " kg" << nl;
-    }
-    if (pairs_.size())
-    {
-        scalar nodes = 0;
-        for (const phasePair& pair : pairs_) nodes += pair.memory();
-        reduce(nodes, sumOp<scalar>());
-        Info<< "    coupling: " << nodes/1e6 << " MB on nodes" << nl;
-    }
-    Info<< endl;
 }
 
 
@@ -1143,56 +997,13 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
 }
 
 
-void Foam::mpm::materialPointSystem::updateStress()
+void Foam::mpm::materialPointSystem::moveNodes()
 {
     const scalar deltaT = time_.deltaTValue();
 
     setForces(deltaT);
     if (bodies_.valid()) bodies_->findVelocities(time_.value(), deltaT);
-
-    // The pressure of the liquid acts on points of solids, too
-    if (liquid_) liquid_->updateStress(deltaT);
-    for (phasePair& pair : pairs_) pair.afterLiquidStress();
-    for (soilCloud* solid : solids_) solid->updateStress(deltaT);
-}
-
-
-void Foam::mpm::materialPointSystem::updateNodes()
-{
-    const scalar deltaT = time_.deltaTValue();
-
-    for (phasePair& pair : pairs_) pair.addForces(deltaT);
-    for (materialPointCloud& cloud : clouds_) cloud.updateNodes(deltaT);
-    for (phasePair& pair : pairs_) pair.exchangeMomentum(deltaT);
-
-    // Last, so that nothing moves what friction holds
-    for (materialPointCloud& cloud : clouds_) cloud.finishNodes(deltaT);
-    if (bodies_.valid() && bodies_->anyPushed()) pushBodies(deltaT);
-}
-
-
-void Foam::mpm::materialPointSystem::pushBodies(const scalar deltaT)
-{
-    cost_.start("bodies: motion");
-    const scalar time = time_.value() - 0.5*deltaT;
-    const vector g
-    (
-        gravityInTime_.valid() ? gravityInTime_->value(time) : g_
-    );
-    for (label b = 0; b < bodies_->size(); ++b)
-    {
-        bodyMotion& motion = (*bodies_)[b].motion();
-        if (!motion.pushed()) continue;
-
-        scalar impulse[6] = {}, resistance[36] = {};
-        for (const materialPointCloud& cloud : clouds_)
-        {
-            cloud.pushBody(b, deltaT, impulse, resistance);
-        }
-        motion.react(deltaT, g, impulse, resistance);
-    }
-    for (materialPointCloud& cloud : clouds_) cloud.followBodies(deltaT);
-    cost_.stop();
+    momentum_->solve(deltaT);
 }
 
 
@@ -1304,131 +1115,6 @@ void Foam::mpm::materialPointSystem::updateMeshFields()
         cost_.stop();
         fieldsCurrent_ = true;
     }
-}
-
-
-void Foam::mpm::materialPointSystem::log(const Time& runTime)
-{
-    const label step = clouds_[0].stepCount();
-    logThisStep_ = step % logInterval_ == 0 || runTime.writeTime();
-    if (!logThisStep_) return;
-
-    const scalar h = grid_.cells().minSpacing();
-    const scalar deltaT = runTime.deltaTValue();
-
-    Info<< "Time = " << runTime.timeName() << nl << nl
-        << "Courant Number mean: " << flowSpeed_*deltaT/h
-        << " max: " << signalSpeed_*deltaT/h << nl
-        << "deltaT = " << deltaT << " limiter: " << limiter_
-        << " step: " << step << nl;
-
-    for (const materialPointCloud& cloud : clouds_)
-    {
-        const int64_t contacts =
-            returnReduce(cloud.counts().wallContacts, sumOp<int64_t>());
-        const int64_t left =
-            returnReduce(cloud.counts().left.n, sumOp<int64_t>());
-
-        Info<< cloud.name() << ": points " << cloud.globalSize()
-            << ", max speed " << cloud.globalMaxSpeed() << " m/s";
-        if (left) Info<< ", left through openings " << left;
-        if (contacts) Info<< ", put back from walls " << contacts;
-        if (bodies_.valid())
-        {
-            const int64_t out =
-                returnReduce(cloud.nPutOut(), sumOp<int64_t>());
-            if (out) Info<< ", put out of bodies " << out;
-        }
-        Info<< nl;
-        if (cloud.openBoundaries())
-        {
-            const inflowOutflow::balance b(cloud.accounts());
-            Info<< cloud.name() << ": entered " << b.entered.n << ", left "
-                << b.left.n << ", left elsewhere " << b.elsewhere.n
-                << ", waiting " << b.waiting.n << ", allocated "
-                << b.allocated << ", balance " << b.imbalance() << ", mass "
-                << b.massImbalance() << " kg" << nl;
-        }
-    }
-
-    for (label b = 0; bodies_.valid() && b < bodies_->size(); ++b)
-    {
-        Info<< "body " << (*bodies_)[b].name() << ':';
-        for (const materialPointCloud& cloud : clouds_)
-        {
-            Info<< " force of " << cloud.name() << ' '
-                << cloud.loadOn(b).force << " N";
-        }
-        Info<< nl;
-    }
-    for (const phasePair& pair : pairs_) pair.log();
-    if (solids_.size()) logBed(runTime);
-    if (liquid_) logDensity();
-    if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();
-    Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
-        << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl
-        << endl;
-}
-
-
-void Foam::mpm::materialPointSystem::reportCosts() const
-{
-    const scalar nRanks = Pstream::nProcs();
-    const scalar total = returnReduce(cost_.total(), sumOp<scalar>())/nRanks;
-    const scalar pointSteps = returnReduce(pointSteps_, sumOp<scalar>());
-    const label steps = clouds_[0].stepCount() - firstStep_;
-
-    if (!steps || pointSteps == 0) return;
-
-    auto row = [&](const char* name, const scalar seconds)
-    {
-        std::ostringstream os;
-        os << "    " << std::left << std::setw(28) << name << std::right
-           << std::fixed << std::setprecision(4) << std::setw(10) << seconds
-           << std::setw(8) << std::setprecision(1) << 100*seconds/total
-           << std::setw(10) << 1e9*seconds*nRanks/pointSteps;
-        Info<< os.str().c_str() << nl;
-    };
-
-    Info<< "Cost" << nl
-        << "    part                          seconds   % run   "
-        << "ns per point and step" << nl;
-
-    // By name: a rank that liquid and solids never share has no pore pressure
-    List<stringList> names(Pstream::nProcs());
-    List<scalarList> seconds(Pstream::nProcs());
-    for (size_t i = 0; i < cost_.size(); ++i)
-    {
-        names[Pstream::myProcNo()].append(string(cost_.name(i)));
-        seconds[Pstream::myProcNo()].append(cost_.seconds(i));
-    }
-    Pstream::gatherList(names);
-    Pstream::gatherList(seconds);
-
-    DynamicList<string> parts;
-    DynamicList<scalar> sums;
-    forAll(names, rank)
-    {
-        forAll(names[rank], i)
-        {
-            label part = parts.find(names[rank][i]);
-            if (part < 0)
-            {
-                part = parts.size();
-                parts.append(names[rank][i]);
-                sums.append(0);
-            }
-            sums[part] += seconds[rank][i]/nRanks;
-        }
-    }
-    forAll(parts, part) row(parts[part].c_str(), sums[part]);
-    row("other", total - sum(sums));
-    row("total", total);
-
-    Info<< nl << "Steps: " << steps
-        << "  points: " << label(std::round(pointSteps/steps))
-        << "  ns per point and step: " << 1e9*total*nRanks/pointSteps
-        << "  limiter: " << limiter_ << nl << endl;
 }
 
 // ************************************************************************* //
