@@ -222,6 +222,184 @@ void Foam::mpm::granularModel::trialBlock
 }
 
 
+template<int dim>
+inline void Foam::mpm::granularModel::trialStress
+(
+    const granularBlock<dim>& block,
+    const label j,
+    const scalar G,
+    scalar* t
+) const
+{
+    for (int c = 0; c < nComponents<dim>; ++c)
+    {
+        t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
+    }
+}
+
+
+template
+<
+    class Model, int dim, Foam::mpm::granularElasticity::law L, class FlowRule
+>
+inline Foam::scalar Foam::mpm::granularModel::returnToYield
+(
+    FlowRule& flow,
+    const scalar HTrial,
+    scalar dH,
+    scalar pdH,
+    const label j,
+    const granularBlock<dim>& block,
+    contactState& state,
+    scalar& plasticStrain
+) const
+{
+    // Of q; the plastic strain is wrong by as much of the elastic strain. The
+    // stress lies on the yield surface in any case
+    constexpr scalar tolerance = 1e-6;
+    constexpr int maxIterations = 100;
+
+    // Error of the direction whose strength counts; the strength errs by less
+    // than twice as much
+    constexpr scalar maxTurn = 2e-3;
+
+    scalar& p = state.p;
+    scalar& k = state.k;
+    scalar& G = state.G;
+    scalar& q = state.q;
+
+    const scalar a = block.a[j];
+    const scalar kStart = block.kStart[j];
+    const scalar XRes = block.XRes[j];
+    const scalar XTrial = block.XTrial[j];
+    const scalar c0 = block.c0[j], c1 = block.c1[j], c2 = block.c2[j];
+    const scalar halfModulus = 0.5*elasticity_.shearRatio()*a;
+    const granularElasticity::range limits =
+        elasticity_.rangeOfStep<L>
+        (
+            0.5*(block.e0[j] + block.e[j]), block.p[j]
+        );
+
+    scalar dPlastic;
+    scalar plasticContraction = 0;
+
+    flow.setDilatancy();
+
+    // d(residual)/d(dl), at the floor of the pressure or above
+    auto slopeAt = [&](const scalar dl, const bool floor, const scalar H)
+    {
+        const scalar dX = floor ? 0 : -a*dPlastic;
+        const scalar dG =
+            halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
+        return
+            (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - (H + pdH)*k*dX;
+    };
+
+    // Beyond this even the softest elastic strain is used up
+    const scalar farthest =
+        std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
+
+    scalar lower = 0, upper = farthest;
+
+    // The first iterate, from the trial state
+    flow.contraction(0, dPlastic);
+    scalar dl = (HTrial*p - q)/slopeAt(0, XTrial <= XRes, HTrial);
+    if (!(dl > lower && dl < upper)) dl = 0.5*upper;
+
+    // Modulus that gave the direction of the trial stress
+    scalar GTrial = G;
+    bool converged = false;
+
+    // Strength of the pressure and the direction found
+    auto refresh = [&]()
+    {
+        scalar t[nComponents<dim>];
+        trialStress<dim>(block, j, G, t);
+        GTrial = G;
+        flow.refresh(p, t, q);
+    };
+
+    for (int i = 0; i < maxIterations; ++i)
+    {
+        plasticContraction = flow.contraction(dl, dPlastic);
+        const scalar X = XTrial - a*plasticContraction;
+        const bool floor = X <= XRes;
+        p = elasticity_.pressure<L>(max(X, XRes), limits, k);
+        G = halfModulus*(kStart + k);
+        q = std::sqrt(max(c0 + G*(2*c1 + G*c2), VSMALL));
+
+        const scalar H = flow.ratio(dl, p, dH, pdH);
+        const scalar residual = q - 3*G*dl - H*p;
+        state.scale = min(H*p/q, scalar(1));
+
+        const bool found =
+            mag(residual) <= tolerance*q
+         || upper - lower <= 1e-15*farthest;
+
+        if (found || i == 0)
+        {
+            // The strength at another pressure or direction, and on from
+            // here; asked after the first iterate, too, not to converge
+            // twice. turn is the square of the angle between the trial
+            // stresses
+            const scalar turn =
+                Model::strengthOfDirection
+              ? sqr((G - GTrial)/(q*q))*(c0*c2 - c1*c1)
+              : 0;
+            if (flow.stale(p) || turn >= maxTurn*maxTurn)
+            {
+                refresh();
+                lower = 0;
+                upper = farthest;
+                continue;
+            }
+            converged = found;
+            if (found) break;
+        }
+        (residual > 0 ? lower : upper) = dl;
+
+        dl -= residual/slopeAt(dl, floor, H);
+        if (!(dl > lower && dl < upper)) dl = 0.5*(lower + upper);
+    }
+    if (!converged)
+    {
+        // Pressure and strength chase each other, in strain increments
+        // that compress to tens of MPa: at least stay within the strength
+        refresh();
+        state.scale = min(flow.ratio(dl, p, dH, pdH)*p/q, scalar(1));
+    }
+    plasticStrain += dl;
+    return plasticContraction;
+}
+
+
+template<int dim, Foam::mpm::granularElasticity::law L>
+inline Foam::scalar Foam::mpm::granularModel::voidRatioAtLoss
+(
+    const granularBlock<dim>& block,
+    const label j,
+    const scalar contraction,
+    const scalar lost
+) const
+{
+    const scalar stored = block.XStart[j] - block.XRes[j];
+
+    // Moduli in the middle of the part with contact, as on the way back:
+    // else cycles would pump
+    scalar e = 0;
+    scalar part = lost > 0 ? stored/(block.a[j]*lost) : 0;
+    for (int i = 0; i < 3; ++i)
+    {
+        part = min(part, scalar(1));
+        e = (1 + block.e0[j])*expStrain(-part*contraction) - 1;
+        if (lost <= 0) break;
+        part = stored/lost
+           /elasticity_.coefficient<L>(0.5*(block.e0[j] + e));
+    }
+    return e;
+}
+
+
 template<class Model, int dim, Foam::mpm::granularElasticity::law L>
 bool Foam::mpm::granularModel::contactStep
 (
@@ -232,22 +410,10 @@ bool Foam::mpm::granularModel::contactStep
     granularStep& step
 ) const
 {
-    constexpr int n = nComponents<dim>;
-
-    // Of q; the plastic strain is wrong by as much of the elastic strain. The
-    // stress lies on the yield surface in any case
-    constexpr scalar tolerance = 1e-6;
-    constexpr int maxIterations = 100;
-
-    // Error of the direction whose strength counts; the strength errs by less
-    // than twice as much
-    constexpr scalar maxTurn = 2e-3;
-
-    scalar p = block.pTrial[j];
-    scalar k = block.kTrial[j];
-    scalar G = block.G[j];
-    scalar q = block.q[j];
-    const scalar a = block.a[j];
+    contactState state
+    {
+        block.pTrial[j], block.kTrial[j], block.G[j], block.q[j], 1
+    };
     const scalar contraction = -block.trace[j]*block.time[j];
 
     typename Model::template flowRule<dim> flow
@@ -255,166 +421,52 @@ bool Foam::mpm::granularModel::contactStep
         model, strengths, j, block, step.plasticStrain
     );
 
-    // Slope of H along dl, and along p times p
-    scalar dH, pdH, dPlastic;
-    scalar scale = 1;
+    // Slope of H along the plastic strain, and along p times p
+    scalar dH, pdH;
     scalar plasticContraction = 0;
 
-    const scalar HTrial = flow.ratio(0, p, dH, pdH);
-    if (q > HTrial*p)
+    const scalar HTrial = flow.ratio(0, state.p, dH, pdH);
+    if (state.q > HTrial*state.p)
     {
-        const scalar kStart = block.kStart[j];
-        const scalar XRes = block.XRes[j];
-        const scalar XTrial = block.XTrial[j];
-        const scalar c0 = block.c0[j], c1 = block.c1[j], c2 = block.c2[j];
-        const scalar halfModulus = 0.5*elasticity_.shearRatio()*a;
-        const granularElasticity::range limits =
-            elasticity_.rangeOfStep<L>
-            (
-                0.5*(block.e0[j] + block.e[j]), block.p[j]
-            );
-
-        flow.setDilatancy();
-
-        // d(residual)/d(dl), at the floor of the pressure or above
-        auto slopeAt = [&](const scalar dl, const bool floor, const scalar H)
-        {
-            const scalar dX = floor ? 0 : -a*dPlastic;
-            const scalar dG =
-                halfModulus*elasticity_.stiffnessSlope<L>(p, k, limits)*dX;
-            return
-                (c1 + G*c2)*dG/q - 3*(G + dG*dl) - dH*p - (H + pdH)*k*dX;
-        };
-
-        // Beyond this even the softest elastic strain is used up
-        const scalar farthest =
-            std::sqrt(c2)/3 + std::sqrt(c0)/(3*halfModulus*kStart);
-
-        scalar lower = 0, upper = farthest;
-
-        // The first iterate, from the trial state
-        flow.contraction(0, dPlastic);
-        scalar dl =
-            (HTrial*p - q)/slopeAt(0, XTrial <= XRes, HTrial);
-        if (!(dl > lower && dl < upper)) dl = 0.5*upper;
-
-        // Modulus that gave the direction of the trial stress
-        scalar GTrial = G;
-        bool converged = false;
-
-        // Strength of the pressure and the direction found
-        auto refresh = [&]()
-        {
-            scalar t[n];
-            for (int c = 0; c < n; ++c)
-            {
-                t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
-            }
-            GTrial = G;
-            flow.refresh(p, t, q);
-        };
-
-        for (int i = 0; i < maxIterations; ++i)
-        {
-            plasticContraction = flow.contraction(dl, dPlastic);
-            const scalar X = XTrial - a*plasticContraction;
-            const bool floor = X <= XRes;
-            p = elasticity_.pressure<L>(max(X, XRes), limits, k);
-            G = halfModulus*(kStart + k);
-            q = std::sqrt(max(c0 + G*(2*c1 + G*c2), VSMALL));
-
-            const scalar H = flow.ratio(dl, p, dH, pdH);
-            const scalar residual = q - 3*G*dl - H*p;
-            scale = min(H*p/q, scalar(1));
-
-            const bool found =
-                mag(residual) <= tolerance*q
-             || upper - lower <= 1e-15*farthest;
-
-            if (found || i == 0)
-            {
-                // The strength at another pressure or direction, and on from
-                // here; asked after the first iterate, too, not to converge
-                // twice. turn is the square of the angle between the trial
-                // stresses
-                const scalar turn =
-                    Model::strengthOfDirection
-                  ? sqr((G - GTrial)/(q*q))*(c0*c2 - c1*c1)
-                  : 0;
-                if (flow.stale(p) || turn >= maxTurn*maxTurn)
-                {
-                    refresh();
-                    lower = 0;
-                    upper = farthest;
-                    continue;
-                }
-                converged = found;
-                if (found) break;
-            }
-            (residual > 0 ? lower : upper) = dl;
-
-            dl -= residual/slopeAt(dl, floor, H);
-            if (!(dl > lower && dl < upper)) dl = 0.5*(lower + upper);
-        }
-        if (!converged)
-        {
-            // Pressure and strength chase each other, in strain increments
-            // that compress to tens of MPa: at least stay within the strength
-            refresh();
-            scale = min(flow.ratio(dl, p, dH, pdH)*p/q, scalar(1));
-        }
-        step.plasticStrain += dl;
+        plasticContraction = returnToYield<Model, dim, L>
+        (
+            flow, HTrial, dH, pdH, j, block, state, step.plasticStrain
+        );
     }
-    else if (flow.stale(p))
+    else if (flow.stale(state.p))
     {
         // Elastic by a strength that belongs to another pressure
-        scalar t[n];
-        for (int c = 0; c < n; ++c)
-        {
-            t[c] = block.s[c][j] + 2*G*block.time[j]*block.D[c][j];
-        }
-        flow.refresh(p, t, q);
-        const scalar H = flow.ratio(0, p, dH, pdH);
-        if (q > H*p) scale = H*p/q;
+        scalar t[nComponents<dim>];
+        trialStress<dim>(block, j, state.G, t);
+        flow.refresh(state.p, t, state.q);
+        const scalar H = flow.ratio(0, state.p, dH, pdH);
+        if (state.q > H*state.p) state.scale = H*state.p/state.q;
     }
 
     // Contact is lost where expansion leaves no pressure; what rounding makes
     // of a strain of constant volume is no expansion
     if
     (
-        block.XTrial[j] - a*plasticContraction <= block.XRes[j]
+        block.XTrial[j] - block.a[j]*plasticContraction <= block.XRes[j]
      && contraction < 0
      && sqr(contraction) > 1e-18*block.c2[j]
     )
     {
-        const scalar lost = plasticContraction - contraction;
-        const scalar stored = block.XStart[j] - block.XRes[j];
-
-        // Moduli in the middle of the part with contact, as on the way back:
-        // else cycles would pump
-        scalar part = lost > 0 ? stored/(a*lost) : 0;
-        for (int i = 0; i < 3; ++i)
-        {
-            part = min(part, scalar(1));
-            step.contactVoidRatio =
-                (1 + block.e0[j])*expStrain(-part*contraction) - 1;
-            if (lost <= 0) break;
-            part = stored/lost
-               /elasticity_.coefficient<L>
-                (
-                    0.5*(block.e0[j] + step.contactVoidRatio)
-                );
-        }
+        step.contactVoidRatio = voidRatioAtLoss<dim, L>
+        (
+            block, j, contraction, plasticContraction - contraction
+        );
         return false;
     }
 
-    for (int c = 0; c < n; ++c)
+    scalar t[nComponents<dim>];
+    trialStress<dim>(block, j, state.G, t);
+    for (int c = 0; c < nComponents<dim>; ++c)
     {
-        block.s[c][j] =
-            scale*(block.s[c][j] + 2*G*block.time[j]*block.D[c][j]);
+        block.s[c][j] = state.scale*t[c];
     }
-    step.p = p;
-    step.k = k;
+    step.p = state.p;
+    step.k = state.k;
     return true;
 }
 
