@@ -4,7 +4,8 @@ import sys
 
 import numpy as np
 
-from mpmfoam import reference, study, wave
+from mpmfoam import costStudy, reference, study, wave
+from mpmfoam.costStudy import MPM, POINTS, PROPERTIES, Scene, merged
 from mpmfoam.postProcessing import readDat
 
 REPOSITORY = reference.repository()
@@ -18,112 +19,6 @@ import coupling  # noqa: E402
 import damBreak as dam  # noqa: E402
 from coupledProblem import PROBLEMS  # noqa: E402
 from makeWave import gaugePoints, waveSurface  # noqa: E402
-
-FLUID = "water/weaklyCompressibleNewtonianCoeffs"
-MPM = "system/fvSolution"
-PROPERTIES = "constant/materialPointProperties"
-POINTS = "system/setMaterialPointsDict"
-
-
-def merged(*parts):
-    out = {}
-    for part in parts:
-        for file, entries in part.items():
-            out.setdefault(file, {}).update(entries)
-    return out
-
-
-class Scene:
-    """A default and, one at a time, what is changed of it. A variant is
-    (factor, value as text, cells per default cell, points per direction,
-    settings)."""
-
-    title = errorName = None
-    clouds = ["water"]
-    h = points = None           # default
-    grids = []                  # cells per default cell
-    pointCounts = []
-
-    def template(self):
-        return TUTORIALS/self.name
-
-    @property
-    def name(self):
-        return type(self).__name__[0].lower() + type(self).__name__[1:]
-
-    def settings(self, finer, points):
-        """What a grid and a number of points ask for"""
-        raise NotImplementedError
-
-    def files(self, finer):
-        return {}
-
-    def reference(self):
-        """Grid and points of the run that counts as exact; none if there is
-        analysis"""
-        return None
-
-    def common(self):
-        """Numerics that all scenes try"""
-        for shape in ["linear", "cubicBSpline"]:
-            # APIC with linear functions is refused
-            change = {MPM: {"MPM/shapeFunction": shape}}
-            if shape == "linear":
-                change[PROPERTIES] = {f"{c}/transfer": "FLIP"
-                                      for c in self.clouds}
-            yield "shape", shape, 1, self.points, change
-        for maxCo in [0.1, 0.25, 0.7]:
-            yield ("maxCo", f"Co {maxCo}", 1, self.points,
-                   {MPM: {"MPM/maxCo": maxCo}})
-        yield ("smoothing", "none", 1, self.points,
-               {MPM: {"MPM/smoothing": "no"}})
-
-    def waterTransfers(self):
-        for name, entries in [
-                ("PIC", {"transfer": "PIC"}),
-                ("XPIC", {"transfer": "XPIC"}),
-                ("FLIP", {"transfer": "FLIP", "flipDampingRate": 20}),
-                ("APIC 1e9/s", {"apicRate": 1e9})]:
-            yield ("transfer", name, 1, self.points, {PROPERTIES: {
-                f"water/{k}": v for k, v in entries.items()}})
-
-    def variants(self):
-        yield "default", "", 1, self.points, {}
-        for finer in self.grids:
-            yield "grid", f"h {self.h/finer:.3g}", finer, self.points, {}
-        for n in self.pointCounts:
-            yield "points", f"{n*n}/cell", 1, n, {}
-        yield from self.common()
-
-    def runs(self):
-        variants = list(self.variants())
-        if self.reference():
-            finer, points = self.reference()
-            variants.append(("reference", "", finer, points, {}))
-        for factor, value, finer, points, change in variants:
-            yield study.Run(
-                self.label(factor, value), [self.template()], study.MPMFOAM,
-                merged(self.settings(finer, points),
-                       {MPM: {"MPM/logInterval": 100}}, change),
-                self.files(finer),
-                about={"scene": self.name, "factor": factor, "value": value,
-                       "h": self.h/finer})
-
-    def label(self, *words):
-        return f"{self.name}/" + "_".join(filter(None, words)).replace(
-            " ", "").replace("/", "per")
-
-    def ready(self, done):
-        return not self.reference() or self.label("reference") in done
-
-    def isReference(self, run):
-        return run.about["factor"] == "reference"
-
-    def error(self, run, done):
-        raise NotImplementedError
-
-    def more(self, rows, done):
-        return {}
 
 
 class DamBreak(Scene):
@@ -278,9 +173,7 @@ class ColumnCollapse(Scene):
                               ("APIC 80/s", {"apicRate": 80})]:
             yield ("transfer", name, 1, self.points, {PROPERTIES: {
                 f"soil/{k}": v for k, v in entries.items()}})
-        for cap in [5, 10, 20]:
-            yield ("stiffness", f"{cap} m/s", 1, self.points,
-                   {MPM: {"MPM/maxSoilSoundSpeed": cap}})
+        yield from self.atDefault(costStudy.soilStiffness([5, 10, 20]))
 
     @staticmethod
     def deposit(run, edges):
@@ -321,9 +214,7 @@ class Consolidation(Scene):
                {MPM: {"MPM/volumeCorrection": "no"}})
         # No cap of the stiffness: it would change what Terzaghi's layer is.
         # The water's stiffness limits the time step
-        for c in self.SOUND:
-            yield ("soundSpeed", f"{c} m/s", 1, self.points,
-                   {PROPERTIES: {f"{FLUID}/soundSpeed": c}})
+        yield from self.atDefault(costStudy.soundSpeeds("water", self.SOUND))
 
     def figures(self, run):
         return PROBLEMS[self.name][0](run.case)
@@ -368,9 +259,7 @@ class WallJet(Scene):
         yield from self.waterTransfers()
         yield ("transfer", "soil APIC", 1, self.points,
                {PROPERTIES: {"soil/transfer": "APIC"}})
-        for cap in [5, 10, 20]:
-            yield ("stiffness", f"{cap} m/s", 1, self.points,
-                   {MPM: {"MPM/maxSoilSoundSpeed": cap}})
+        yield from self.atDefault(costStudy.soilStiffness([5, 10, 20]))
 
     @staticmethod
     def area(run):

@@ -42,6 +42,10 @@ class RunError(Exception):
     """A run that could not be made or did not finish"""
 
 
+class OverLimit(RunError):
+    """A run that took more CPU time than it was given"""
+
+
 @dataclass
 class Run:
     """name       directory below runs/
@@ -54,7 +58,8 @@ class Run:
     about      what the evaluation wants to know of the run
     optional   runs only when it is named
     ranks      of the solver; with more than one the case is decomposed by its
-               system/decomposeParDict before and reconstructed after"""
+               system/decomposeParDict before and reconstructed after
+    cpuLimit   of each command [s]; beyond it the run is ended (OverLimit)"""
     name: str
     templates: list
     commands: list
@@ -64,6 +69,7 @@ class Run:
     optional: bool = False
     ranks: int = 1
     path: Path = None
+    cpuLimit: float = None
 
     @property
     def case(self):
@@ -125,6 +131,11 @@ class Run:
                         time.sleep(0.2)
                         if name == self.commands[-1]:
                             _progress(self.name, logFile, endTime, start)
+                        if self.cpuLimit and \
+                                cpuTime(process.pid) > self.cpuLimit:
+                            raise OverLimit(
+                                f"{self.name}: {command} took more than "
+                                f"{self.cpuLimit:.3g} s of CPU time")
                 except BaseException:
                     process.terminate()
                     process.wait()
@@ -169,6 +180,15 @@ class Run:
                     place = source.relative_to(template)
                     if source.is_file() and "polyMesh" not in place.parts:
                         yield source, place
+
+
+def cpuTime(pid):
+    """Of a process that runs [s]; 0 if it has ended"""
+    try:
+        words = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except OSError:
+        return 0
+    return (int(words[11]) + int(words[12]))/os.sysconf("SC_CLK_TCK")
 
 
 def setEntry(path, name, value):
