@@ -231,9 +231,10 @@ def draw(title, errorName, rows, best, path, floor=None):
     default = [r for r in rows if r["factor"] == "default"]
     for r in rows:
         # Those that cannot be told from the default would hide each other
-        if not any(abs(r["error"]/d["error"] - 1) < 0.05
-                   and abs(r["cpuTime"]/d["cpuTime"] - 1) < 0.2
-                   for d in default if d["error"] > 0):
+        if r["factor"] not in ("scatter", "check") and not any(
+                abs(r["error"]/d["error"] - 1) < 0.05
+                and abs(r["cpuTime"]/d["cpuTime"] - 1) < 0.2
+                for d in default if d["error"] > 0):
             panel.annotate(" " + r["value"], (r["cpuTime"], r["error"]),
                            fontsize=6, color="0.3")
     best = sorted(best, key=lambda r: r["cpuTime"])
