@@ -123,7 +123,7 @@ def testCase(finished, figures):
     figures.equal("runs whose error is 0: the finest",
                   sum(1 for e in error.values() if e == 0), 1)
     text = (results/"recommendation.txt").read_text()
-    figures.holds("a sentence", "Accuracy: for 10 %" in text)
+    figures.holds("a sentence", "Accuracy: for 10" in text)
     # Digits of the output change no result
     figures.atMost("change by digits of the output", abs(
         error["output_7digits"] - error["default"]), 1e-6)

@@ -843,20 +843,23 @@ def report(owner, verdict, checks):
             + (order if part["finest"] is not None else ""))
     text.append(f"Finest run: {verdict.finest.name}, "
                 f"{verdict.finest.log.cpuTime:.0f} s of CPU time")
-    clauses = []
+    groups = {}
     for target in owner.targets:
         run = verdict.chosen(target/100)
+        groups.setdefault(run and run.name, (run, []))[1].append(target)
+    clauses = []
+    for run, targets in groups.values():
+        aim = ", ".join(f"{t:g}" for t in targets) + " %"
         if run is None:
             reason = "no finer grid was within the budget" \
                 if verdict.finest is verdict.base else \
                 "the finest run is itself uncertain by " \
                 f"{100*verdict.uncertainty:.2g} %" \
-                if verdict.uncertainty > target/100 else \
+                if verdict.uncertainty > targets[0]/100 else \
                 "no cheaper run is as near to the finest"
-            clauses.append(f"for {target:g} % nothing can be promised "
-                           f"({reason})")
+            clauses.append(f"for {aim} nothing can be promised ({reason})")
             continue
-        clause = (f"for {target:g} % take {describe(run)} "
+        clause = (f"for {aim} take {describe(run)} "
                   f"(error {100*verdict.error(run):.2g} %, at most "
                   f"{100*verdict.bound(run):.2g} %, "
                   f"{run.log.cpuTime:.3g} s")
