@@ -27,6 +27,8 @@ EXPLAINED_IN = {
     "src/materialPoint/waterCloud": "materialPointProperties",
     "src/materialPoint/soilCloud": "materialPointProperties",
     "src/materialPoint/transfer": "materialPointProperties",
+    "src/materialPoint/turbulence": "materialPointProperties",
+    "src/materialPoint/viscosity": "materialPointProperties",
     "src/materialPoint/inflowOutflow": "materialPointProperties",
     "src/constitutive": "materialPointProperties",
     "src/constitutive/soilModel": "soilModels",
@@ -128,6 +130,10 @@ def testDefault(source, entry):
 
 @pytest.mark.parametrize("family, base, name", [
     ("src/materialPoint/transfer", "transferScheme", "materialPointProperties"),
+    ("src/materialPoint/turbulence", "turbulenceModel",
+     "materialPointProperties"),
+    ("src/materialPoint/viscosity", "viscosityModel",
+     "materialPointProperties"),
     ("src/materialPoint/pointRegion", "pointRegion", "setMaterialPointsDict"),
     ("src/interaction/placement/initialStress", "initialStress",
      "setMaterialPointsDict"),
@@ -148,7 +154,8 @@ def testModels(family, base, name):
         # The word none is no C++ class name; Ergun is what others have in
         # common, searchable are the shapes of OpenFOAM
         word = {"noDrag": "none", "noBedLoad": "none", "Ergun": base,
-                "searchable": "sphere"}.get(model, model)
+                "searchable": "sphere",
+                "wallDistance": "roughWall"}.get(model, model)
         if model != base and word != base:
             assert re.search(rf"\b{word}\b", explained(name)), model
 

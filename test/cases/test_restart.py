@@ -35,7 +35,7 @@ def differing(first, second, step):
 
 
 @pytest.mark.parametrize("control", ["timeStep", "adjustableRunTime"])
-@pytest.mark.parametrize("transfer", ["APIC", "FLIP", "XPIC"])
+@pytest.mark.parametrize("transfer", ["APIC", "FLIP", "XPIC", "XAPIC"])
 @pytest.mark.parametrize("dim", [2, 3])
 def testTwoRunsAreOne(tmp_path, figures, dim, transfer, control):
     setup = damBreak(dim, points=3 if dim == 2 else 2,

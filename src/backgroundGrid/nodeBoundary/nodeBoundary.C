@@ -140,7 +140,16 @@ void Foam::mpm::nodeBoundary::rebuild
 
     tiles_.reset(new nodeTiles(*folding_, zoneOfCell));
     findControlVolumes();
+    setLiquid(rho_, nu_);
     for (nodeConstraint* c : further_) c->place();
+}
+
+
+void Foam::mpm::nodeBoundary::setLiquid(const scalar rho, const scalar nu)
+{
+    rho_ = rho;
+    nu_ = nu;
+    for (nodeConstraint& c : constraints_) c.setLiquid(rho, nu);
 }
 
 

@@ -10,7 +10,8 @@ License
 
 const Foam::wordList Foam::mpm::patchTypes::slip
 ({
-    "slip", "symmetryPlane", "symmetry", "frictional", "constrainedWall"
+    "slip", "symmetryPlane", "symmetry", "frictional", "smoothWall",
+    "roughWall", "constrainedWall"
 });
 const Foam::wordList Foam::mpm::patchTypes::fixed({"noSlip", "fixedValue"});
 const Foam::wordList Foam::mpm::patchTypes::open

@@ -592,6 +592,7 @@ void Foam::mpm::materialPointCloud::readState(const dictionary& dict)
     }
 
     if (open_.valid()) open_->read(dict);
+    if (transfer_.valid()) transfer_->read(dict);
 }
 
 
@@ -602,6 +603,7 @@ void Foam::mpm::materialPointCloud::writeState(dictionary& dict) const
     forAll(names, i) names[i] = points_.fields()[i].name;
     dict.set("fields", names);
     dict.set("stepCount", stepCount_);
+    if (transfer_.valid()) transfer_->write(dict);
     counters_.left.write(dict, "left");
     dict.set
     (

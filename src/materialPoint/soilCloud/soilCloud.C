@@ -311,6 +311,7 @@ void Foam::mpm::soilCloud::checkDictionary
             model + "Coeffs",
             "transfer",
             "apicRate",
+            "filterRate",
             "flipDampingRate",
             "corners",
             "bodyForce",

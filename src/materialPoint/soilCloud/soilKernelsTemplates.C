@@ -233,7 +233,7 @@ public:
         this->exchangeForces();
         grains.findMeans(c.grid_.exchange(), c.order_.nodeRanges());
         releaseSuspended();
-        this->filter();
+        this->filter(deltaT);
         c.cost_.stop();
     }
 

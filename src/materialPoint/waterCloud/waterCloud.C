@@ -23,13 +23,114 @@ namespace mpm
 
 void Foam::mpm::waterCloud::select()
 {
+    if (settings_.coupled && turbulence_.valid() && turbulence_->needsWalls())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword turbulence is " << turbulence_->type() << ", which needs"
+            << " the distance from walls; beside solids a bed would be one,"
+            << " too." << nl << "    Allowed beside solids: none, Smagorinsky,"
+            << " kEpsilon" << exit(FatalIOError);
+    }
+
     // Plain APIC at its own time-step limit, and no more dissipative when the
     // time step is cut
     const scalar apicRate =
         2*fluid_.soundSpeed()/grid_.cells().minSpacing();
 
-    selectTransfer("APIC", settings_.coupled ? coupledApicRate : apicRate);
+    // The eddies' viscosity damps what XAPIC leaves, and would be less than
+    // that of APIC
+    selectTransfer
+    (
+        turbulence_.valid() ? "XAPIC" : "APIC",
+        settings_.coupled && !turbulence_.valid() ? coupledApicRate : apicRate
+    );
     makeKernels();
+}
+
+
+Foam::scalar Foam::mpm::waterCloud::schemeViscosity() const
+{
+    const scalar h = grid_.cells().minSpacing();
+    const scalar ch = fluid_.soundSpeed()*h;
+    const scalar moment = 1e-9*h/fluid_.soundSpeed();
+    const scalar fraction = transfer_->picFraction(moment);
+
+    if (transfer_->affine())
+    {
+        return transfer_->filtered()
+          ? 4e-4*ch
+          : 0.0083*fraction/moment*sqr(h) + 7e-4*ch;
+    }
+    return (fraction >= 1 ? 0.3 : transfer_->filtered() ? 0.044 : 0.03)*ch;
+}
+
+
+void Foam::mpm::waterCloud::porosities(std::vector<scalar>& n) const
+{
+    // Means over the corners of the cell
+    const std::vector<scalar>& inverseVolume = boundary_.inverseVolume();
+    n.resize(size());
+    for (label p = 0; p < size(); ++p)
+    {
+        scalar pores = 0, space = 0;
+        for (label k = 0; k < (1 << grid_.nDim()); ++k)
+        {
+            label node = points_.cell()[p];
+            for (label d = 0; d < grid_.nDim(); ++d)
+            {
+                if (k & (1 << d)) node += grid_.stride(d);
+            }
+            const scalar inversePores = coupling_->inversePoreVolume[node];
+            if (!(inversePores > 0)) continue;
+            pores += 1/inversePores;
+            space += 1/inverseVolume[node];
+        }
+        n[p] = space > 0 ? pores/space : 1;
+    }
+}
+
+
+void Foam::mpm::waterCloud::findMaxViscosity()
+{
+    maxNut_ = 0;
+    if (nut_ < 0) return;
+    const scalar* nut = points_.column(nut_);
+    for (label p = 0; p < size(); ++p) maxNut_ = max(maxNut_, nut[p]);
+}
+
+
+void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
+{
+    cost_.start("viscosity");
+    scalar* nut = points_.column(nut_);
+    const scalar* rate = points_.column(nut_ + 1);
+    std::fill(nut, nut + size(), 0);
+    if (viscosity_.valid())
+    {
+        for (label p = 0; p < size(); ++p) nut[p] = viscosity_->nu(rate[p]);
+    }
+    if (turbulence_.valid())
+    {
+        std::vector<scalar> porosity;
+        turbulenceModel::points p{};
+        p.n = size();
+        p.cell = points_.cell();
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            p.x[d] = points_.column(x_ + d);
+            p.v[d] = points_.column(v_ + d);
+        }
+        p.shearRate = rate;
+        if (coupling_)
+        {
+            porosities(porosity);
+            p.porosity = porosity.data();
+        }
+        turbulence_->correct
+            (deltaT, fluid_.mu()/fluid_.rho0(), p, *kernels_, nut);
+    }
+    findMaxViscosity();
+    cost_.stop();
 }
 
 
@@ -271,6 +372,8 @@ void Foam::mpm::waterCloud::setEntered
     }
     setState(first, volume, pressure);
 
+    if (turbulence_.valid()) turbulence_->setEntered(first, first + depth.size());
+
     // Density falls with height
     const scalar g = mag(g_);
     forAll(pressure, i)
@@ -342,6 +445,19 @@ Foam::mpm::waterCloud::waterCloud
     (
         readSwitchOrDefault(dict, "tensionCutOff", false) ? 0 : -VGREAT
     ),
+    viscosity_(viscosityModel::New(dict, control.strictKeywords)),
+    turbulence_
+    (
+        turbulenceModel::New(dict, grid, U_, points_, control.strictKeywords)
+    ),
+    nut_
+    (
+        viscosity_.valid() || turbulence_.valid()
+      ? points_.add("nut", pointStorage::scalarValue)
+      : -1
+    ),
+    maxNut_(0),
+    globalMaxNut_(0),
     p_
     (
         IOobject
@@ -361,6 +477,9 @@ Foam::mpm::waterCloud::waterCloud
     minJ_(1),
     globalMinJ_(1)
 {
+    // After nut: the columns lie side by side
+    if (nut_ >= 0) points_.add("shearRate", pointStorage::scalarValue);
+    boundary_.setLiquid(fluid_.rho0(), fluid_.mu()/fluid_.rho0());
     if (!fluid_.autoSoundSpeed()) select();
 }
 
@@ -387,9 +506,17 @@ void Foam::mpm::waterCloud::checkDictionary
             word(weaklyCompressibleNewtonian::typeName) + "Coeffs",
             "transfer",
             "apicRate",
+            "filterRate",
             "flipDampingRate",
             "corners",
             "tensionCutOff",
+            "viscosityModel",
+            "BinghamPapanastasiouCoeffs",
+            "HerschelBulkleyCoeffs",
+            "turbulence",
+            "mixingLengthCoeffs",
+            "SmagorinskyCoeffs",
+            "kEpsilonCoeffs",
             "bodyForce",
             "pressureGradient",
             "inflowOutflow",
@@ -659,6 +786,13 @@ void Foam::mpm::waterCloud::addLimits(stepLimits& limits)
         stepLimits::end, [this]() { return minJ_; }, globalMinJ_
     );
     materialPointCloud::addLimits(limits);
+    if (nut_ >= 0)
+    {
+        limits.addMaximum
+        (
+            stepLimits::end, [this]() { return maxNut_; }, globalMaxNut_
+        );
+    }
 
     // Through inlets and outlets anything may come and go
     if (settings_.volumeCorrection && !open_.valid() && !bodies_)
@@ -683,7 +817,7 @@ Foam::scalar Foam::mpm::waterCloud::waveSpeed() const
 
 Foam::scalar Foam::mpm::waterCloud::viscosity() const
 {
-    return fluid_.mu()/fluid_.rho0();
+    return fluid_.mu()/fluid_.rho0() + globalMaxNut_;
 }
 
 
@@ -750,6 +884,7 @@ void Foam::mpm::waterCloud::readState(const dictionary& dict)
     {
         fluid_.setSoundSpeed(readPositive(dict, "soundSpeed", dimVelocity));
         select();
+        transfer_->read(dict);
     }
     if (Pstream::master())
     {
@@ -778,6 +913,14 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
         "  viscous stress", fluid_.viscous(),
         "mu = " + Foam::name(fluid_.mu()) + " Pa s"
     );
+    const scalar nu = schemeViscosity();
+    string text("about " + Foam::name(nu) + " m2/s for eddies of 16 cells");
+    if (fluid_.viscous() && nu*fluid_.rho0() > fluid_.mu())
+    {
+        text += ", " + Foam::name(nu*fluid_.rho0()/fluid_.mu())
+          + " times mu/rho0";
+    }
+    table.add("  viscosity of the scheme", true, text);
     table.add
     (
         "  pressure smoothing", settings_.smoothing,
@@ -798,6 +941,16 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
         );
     }
     table.add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
+    table.add
+    (
+        "  viscosity of the shear rate", viscosity_.valid(),
+        viscosity_.valid() ? viscosity_->description() : "viscosityModel"
+    );
+    table.add
+    (
+        "  turbulence", turbulence_.valid(),
+        turbulence_.valid() ? turbulence_->description() : "turbulence"
+    );
     openEffects(table);
 }
 

@@ -19,7 +19,6 @@ class waterKernelsFor
     public cloudKernelsFor<Shape, dim>
 {
     typedef cloudKernelsFor<Shape, dim> base;
-    typedef waterMaterial<dim> material;
 
     using base::kernels_;
     using base::volume;
@@ -30,14 +29,15 @@ class waterKernelsFor
     std::vector<label> neighbours_;
 
 
-    material makeMaterial(const scalar deltaT)
+    template<bool eddy = false>
+    waterMaterial<dim, eddy> makeMaterial(const scalar deltaT)
     {
         waterCloud& c = cloud_;
         const scalar perSpeed = deltaT/c.grid_.cells().minSpacing();
         const scalar courant = c.fluid_.soundSpeed()*perSpeed;
         const bool correct = c.settings_.volumeCorrection;
 
-        material m
+        waterMaterial<dim, eddy> m
         {
             c.fluid_,
             c.points_.column(c.mass_),
@@ -54,6 +54,11 @@ class waterKernelsFor
             1 - std::exp(-waterCloud::smoothingRate*courant),
             c.minPressure_
         };
+        if constexpr (eddy)
+        {
+            m.nut = c.points_.column(c.nut_);
+            m.shearRate = c.points_.column(c.nut_ + 1);
+        }
         for (int d = 0; d < dim; ++d)
         {
             m.gradJ[d] =
@@ -181,6 +186,21 @@ class waterKernelsFor
         for (const auto& point : cloud_.held_) J[point.first] = point.second;
     }
 
+    //- Stress of the points, with or without a viscosity of their own
+    template<bool eddy>
+    void stressOfPoints(const scalar deltaT)
+    {
+        waterCloud& c = cloud_;
+        waterMaterial<dim, eddy> m(makeMaterial<eddy>(deltaT));
+        kernels_.updateStress
+        (
+            c.view<dim>(), m, 1 - c.transfer_->picFraction(deltaT), c.nodes_,
+            c.coupling_
+        );
+        c.stressWork_ += deltaT*sumLanes(m.stressWork);
+        c.correctionWork_ += sumLanes(m.correctionWork);
+    }
+
 public:
 
     explicit waterKernelsFor(waterCloud& cloud)
@@ -214,6 +234,8 @@ public:
     {
         waterCloud& c = cloud_;
 
+        if (c.nut_ >= 0) c.correctViscosity(deltaT);
+
         c.startCost("volume (nodes)");
         saturations();
         if (c.settings_.volumeCorrection)
@@ -223,21 +245,15 @@ public:
         }
 
         c.startCost("stress and forces");
-        const scalar keep = 1 - c.transfer_->picFraction(deltaT);
-        material m(makeMaterial(deltaT));
         hold();
-        kernels_.updateStress
-        (
-            c.view<dim>(), m, keep, c.nodes_, c.coupling_
-        );
+        if (c.nut_ >= 0) stressOfPoints<true>(deltaT);
+        else stressOfPoints<false>(deltaT);
         release();
         c.addOutletLoads();
-        c.stressWork_ += deltaT*sumLanes(m.stressWork);
-        c.correctionWork_ += sumLanes(m.correctionWork);
 
         this->exchangeForces();
         if (c.bodies_) c.pressAtBodies();
-        this->filter();
+        this->filter(deltaT);
 
         if (c.coupling_ && c.coupling_->contact)
         {
@@ -286,7 +302,7 @@ public:
         waterCloud& c = cloud_;
 
         c.startCost("grid-to-particle");
-        material m(makeMaterial(deltaT));
+        waterMaterial<dim> m(makeMaterial(deltaT));
         kernels_.gridToParticle
         (
             c.view<dim>(), m, deltaT, c.nodes_, c.movers_, c.sums_
@@ -297,11 +313,127 @@ public:
     }
 
 
+    virtual void diffuse
+    (
+        const scalar deltaT,
+        scalar* const (&values)[2],
+        const scalar* const (&diffusivities)[2]
+    )
+    {
+        waterCloud& c = cloud_;
+        const pointView<dim> points(c.view<dim>());
+        const size_t n = c.grid_.nNodes();
+        nodeField<nodeVector> sum(n, nodeVector{});
+        nodeField<nodeVector> change(n, nodeVector{});
+        nodeField<nodeVector> field(n, nodeVector{});
+        std::vector<scalar> slopes[2];
+
+        kernels_.scalarsToGrid
+        (
+            points,
+            [&](const label p, lanes& a, lanes& b)
+            {
+                const lanes m = loadLanes(points.mass + p);
+                a = m*loadLanes(values[0] + p);
+                b = m*loadLanes(values[1] + p);
+            },
+            sum
+        );
+        c.grid_.exchange().sum(sum);
+
+        for (int s = 0; s < 2; ++s)
+        {
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    const scalar m = c.nodes_.mass(i);
+                    field[i][dim] = m > 0 ? sum[i][s]/m : 0;
+                }
+            );
+            slopes[s].resize(dim*(c.size() + nLanes));
+            scalar* slope = slopes[s].data();
+            const label stride = c.size() + nLanes;
+            kernels_.scalarToPoints
+            (
+                points,
+                field,
+                [&]
+                (
+                    const label p,
+                    const laneMask& valid,
+                    const lanes&,
+                    const lanes (&gradient)[dim]
+                )
+                {
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        storeLanes(slope + d*stride + p, gradient[d], valid);
+                    }
+                }
+            );
+        }
+
+        const label stride = c.size() + nLanes;
+        kernels_.fluxesToGrid
+        (
+            points,
+            [&](const label p, lanes (&flux)[dim][dim])
+            {
+                const lanes m = loadLanes(points.mass + p);
+                for (int s = 0; s < 2; ++s)
+                {
+                    const lanes D = m*loadLanes(diffusivities[s] + p);
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        flux[d][s] =
+                            D*loadLanes(slopes[s].data() + d*stride + p);
+                    }
+                }
+            },
+            change
+        );
+        c.grid_.exchange().sum(change);
+
+        // What falls does so as if implicit: positive whatever the step
+        for (int s = 0; s < 2; ++s)
+        {
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    const scalar had = sum[i][s];
+                    const scalar gain =
+                        had > 0 ? -deltaT*change[i][s]/had : 0;
+                    field[i][dim] = gain > 0 ? 1 + gain : 1/(1 - gain);
+                }
+            );
+            scalar* value = values[s];
+            kernels_.scalarToPoints
+            (
+                points,
+                field,
+                [&]
+                (
+                    const label p,
+                    const laneMask& valid,
+                    const lanes& factor,
+                    const lanes (&)[dim]
+                )
+                {
+                    storeLanes
+                        (value + p, loadLanes(value + p)*factor, valid);
+                }
+            );
+        }
+    }
+
+
     virtual void updateMeshFields()
     {
         waterCloud& c = cloud_;
         nodeField<nodeVector>& pressure = c.nodes_.force;
-        const material m(makeMaterial(0));
+        const waterMaterial<dim> m(makeMaterial(0));
 
         // Mean pressure by volume, in the slots 0 (sum) and 1 (weight)
         this->sumToNodes(m);

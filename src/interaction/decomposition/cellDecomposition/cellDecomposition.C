@@ -192,11 +192,15 @@ void Foam::mpm::cellDecomposition::checkPatchTypes
         if
         (
             e.isDict() && !e.dict().found("value")
-         && e.dict().lookupOrDefault<word>("type", word::null) == "frictional"
+         && wordList({"frictional", "smoothWall", "roughWall"}).found
+            (
+                e.dict().lookupOrDefault<word>("type", word::null)
+            )
         )
         {
+            const word type(e.dict().get<word>("type"));
             Info<< "--> " << file.objectPath() << ", patch " << e.keyword()
-                << ": decomposePar does not know the type frictional and asks"
+                << ": decomposePar does not know the type " << type << " and asks"
                 << " for its value." << nl << "    For it, add"
                 << " libs (\"libmpmBackgroundGrid.so\"); to"
                 << " system/controlDict" << nl << endl;

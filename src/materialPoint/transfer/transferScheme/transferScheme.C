@@ -43,7 +43,11 @@ Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
 
     // The rate of another scheme would be ignored in silence
     const std::pair<const char*, const char*> rates[] =
-        {{"apicRate", "APIC"}, {"flipDampingRate", "FLIP"}};
+        {
+            {"apicRate", "APIC"},
+            {"flipDampingRate", "FLIP"},
+            {"filterRate", "XAPIC"}
+        };
     for (const auto& [keyword, scheme] : rates)
     {
         if (name != scheme && cloudDict.found(keyword))

@@ -1,0 +1,96 @@
+"""Flows of liquids that are more than laminar: an endless open channel, a gap
+with a yield stress. test_liquids runs them small, validation/liquids large."""
+
+import numpy as np
+
+from caseBuilder import G, RHO, Setup, box, hydrostatic
+
+KAPPA, E = 0.41, 9.8
+
+
+def setField(case, name, values):
+    """The values of a vector of the points of water at the start, in ascii"""
+    path = case.path/"0"/"lagrangian"/"water"/name
+    text = path.read_text()
+    head = text[:text.index("}", text.index("FoamFile")) + 1]
+    rows = "\n".join("(" + " ".join(f"{c:.17g}" for c in v) + ")"
+                     for v in values)
+    path.write_text(f"{head}\n{len(values)}\n(\n{rows}\n)\n")
+
+
+ASCII = {"writeFormat": "ascii", "writePrecision": 17}
+
+
+def logarithmic(y, uStar, ks, nu):
+    """Velocity over a wall, rough or smooth"""
+    return uStar/KAPPA*np.log1p(y/(ks/30 + nu/(E*uStar)))
+
+
+class Channel:
+    """Endless open channel, driven along its bed by a force: depth H, friction
+    velocity uStar, roughness ks (0: smoothWall)"""
+
+    def __init__(self, turbulence, cells=20, ks=4e-3, uStar=0.05, depth=0.2,
+                 points=2, water=None, coeffs=None, fluid=None):
+        self.depth, self.uStar, self.ks = depth, uStar, ks
+        self.h, self.cells, self.nu = depth/cells, cells, 1e-6
+        entries = {"turbulence": turbulence, "transfer": "XAPIC",
+                   "bodyForce": (uStar**2/depth, 0, 0), **(water or {})}
+        if coeffs:
+            entries[turbulence + "Coeffs"] = coeffs
+        bed = {"type": "roughWall", "ks": ks} if ks else {"type": "smoothWall"}
+        self.setup = Setup(
+            cells=(4, cells + 3), h=self.h, points=points, g=(0, -G, 0),
+            sides={"ymin": ("wall", bed)}, energy=False,
+            fluid={"soundSpeed": 14, **(fluid or {})}, water=entries,
+            regions={"channel": hydrostatic((0, 0), (10, depth))},
+            control=ASCII).cyclic("x")
+
+    def profile(self, y):
+        return logarithmic(y, self.uStar, self.ks, self.nu)
+
+    def mean(self):
+        """Mean velocity of the logarithmic law"""
+        y = (np.arange(1000) + 0.5)/1000*self.depth
+        return self.profile(y).mean()
+
+    def start(self, path, end, writes=5):
+        """The case, from the logarithmic law"""
+        case = self.setup.until(end, end/writes).write(path).prepare()
+        x = case.case.cloudField("0", "water", "x")
+        U = np.zeros_like(x)
+        U[:, 0] = self.profile(x[:, 1])
+        setField(case, "U", U)
+        return case
+
+    def meanOf(self, case, time=None):
+        p = case.points(time)
+        return (p.mass*p.U[:, 0]).sum()/p.totalMass/self.mean()
+
+
+def binghamGap(cells=16, model="BinghamPapanastasiou", m=10, water=None):
+    """A Bingham liquid between plates 0.1 m apart, mu 1 Pa s, a gradient of
+    400 Pa/m: the stress at the plates is 20 Pa, the liquid yields at 8 Pa.
+    The setup, and the velocity by height"""
+    H, mu, gradient, yieldStress = 0.1, 1.0, 400.0, 8.0
+    half, plug = H/2, yieldStress/gradient
+    U = gradient/(2*mu)*(half - plug)**2
+
+    def exact(y):
+        d = np.maximum(np.abs(y - half) - plug, 0)
+        return U - gradient/(2*mu)*d**2
+
+    coeffs = {"tau0": yieldStress/RHO, "m": m}
+    if model == "HerschelBulkley":
+        coeffs = {"tau0": yieldStress/RHO, "k": mu/RHO, "n": 1,
+                  "nu0": yieldStress/RHO*m}
+    setup = Setup(
+        cells=(4, cells), h=H/cells, points=3, g=(0, 0, 0),
+        sides={s: ("wall", "noSlip") for s in ("ymin", "ymax")},
+        fluid={"soundSpeed": 10*U,
+               "mu": mu if model == "BinghamPapanastasiou" else 0},
+        water={"viscosityModel": model, model + "Coeffs": coeffs,
+               "pressureGradient": (-gradient, 0, 0), **(water or {})},
+        regions={"gap": box((0, 0), (10, H))}, energy=False,
+        control=ASCII).cyclic("x")
+    return setup, exact, half**2/(mu/RHO)

@@ -1,0 +1,151 @@
+"""Wall stress, turbulence, liquids with a yield stress. Bounds are those of
+issue 22 where nothing else is said."""
+
+import numpy as np
+import pytest
+
+from caseBuilder import CaseError, Setup, box, damBreak, hydrostatic
+from liquids import Channel, binghamGap, setField
+from test_parallel import agree
+from test_restart import differing
+
+START = {"k": 1e-2, "epsilon": 2e-3}
+KEPSILON = {"turbulence": "kEpsilon", "transfer": "XAPIC",
+            "kEpsilonCoeffs": START}
+
+
+@pytest.mark.parametrize("turbulence, ks", [
+    ("mixingLength", 4e-3), ("mixingLength", 0), ("kEpsilon", 4e-3)])
+def testOpenChannel(tmp_path, figures, turbulence, ks):
+    """Mean velocity of the logarithmic law, 20 cells, after 2.5 H/u*"""
+    coeffs = {"k": 8e-3, "epsilon": 3e-3} if turbulence == "kEpsilon" else {}
+    channel = Channel(turbulence, ks=ks, coeffs=coeffs)
+    case = channel.start(tmp_path/"case", 10)
+    case.solve()
+    figures.atMost("mean velocity over that of the law, less one",
+                   abs(channel.meanOf(case) - 1), 0.05)
+
+
+def testStressStopsButNeverTurns(tmp_path, figures):
+    """A film thinner than its roughness, fast at the start"""
+    channel = Channel("none", cells=2, ks=0.2, depth=0.02,
+                      water={"bodyForce": (0, 0, 0)})
+    case = channel.start(tmp_path/"case", 2, writes=2)
+    case.solve()
+    U = case.points().U[:, 0]
+    first = case.points("0").U[:, 0].mean()
+    figures.atLeast("lowest speed along the wall [m/s]", U.min(), -1e-3*first)
+    figures.atMost("mean over the first", U.mean()/first, 0.5)
+
+
+def testPositive(tmp_path, figures):
+    """k and epsilon in a dam break: free surfaces, drops, an impact"""
+    case = damBreak(points=2, water=KEPSILON).until(1, 0.1).write(
+        tmp_path/"case").prepare()
+    case.solve()
+    for name in ["k", "epsilon", "nut"]:
+        least = min(case.case.cloudField(t, "water", name).min()
+                    for t in case.times[1:])
+        figures.atLeast(f"smallest {name}", float(least), 0)
+    e = case.energies()["total"]
+    figures.atMost("growth of the energy over its initial value", float(
+        (e - np.minimum.accumulate(e)).max()/e[0]), 1e-3)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def testTwoRunsAreOne(tmp_path, figures, dim):
+    split = damBreak(dim, points=2, water=KEPSILON, wall={
+        "type": "roughWall", "ks": 1e-3}).steps(20).write(
+            tmp_path/"split").prepare()
+    whole = split.clone(tmp_path/"whole")
+    split.solve()
+    whole.change(control={"stopAt": "endTime", "endTime": 0.06})
+    split.solve()
+    whole.solve()
+    end = max(split.timesByStep())
+    figures.equal("files that differ", differing(split, whole, end), [])
+
+
+@pytest.mark.parametrize("water", [KEPSILON, {
+    "turbulence": "Smagorinsky"}, {
+        "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
+            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 0.1}}],
+    ids=["kEpsilon", "Smagorinsky", "HerschelBulkley"])
+@pytest.mark.parametrize("dim", [2, 3])
+def testRanksAgree(tmp_path, figures, dim, water):
+    setup = damBreak(dim, points=2, water=water, wall={"type": "smoothWall"})
+    # For decomposePar, which does not know the patch
+    setup.control["libs"] = '("libmpmBackgroundGrid.so")'
+    serial = setup.steps(60).write(tmp_path/"serial").prepare()
+    parallel = serial.clone(tmp_path/"parallel").decompose(2)
+    serial.solve()
+    parallel.solve(ranks=2)
+    agree(figures, parallel, serial)
+
+
+@pytest.mark.parametrize("model", ["BinghamPapanastasiou", "HerschelBulkley"])
+def testBinghamGap(tmp_path, figures, model):
+    """16 cells; what the scheme's own viscosity leaves is 3 % with XAPIC and
+    m = 10 s, 2 % at 32 cells (validation/liquids)"""
+    setup, exact, time = binghamGap(
+        model=model, water={"transfer": "XAPIC"})
+    case = setup.until(time/2).write(tmp_path/"case").prepare()
+    x = case.case.cloudField("0", "water", "x")
+    U = np.zeros_like(x)
+    U[:, 0] = exact(x[:, 1])
+    setField(case, "U", U)
+    case.solve()
+    p = case.points()
+    figures.atMost("flow over that of theory, less one", float(abs(
+        p.U[:, 0].mean()/exact(p.x[:, 1]).mean() - 1)), 0.05)
+
+
+def testYieldStressHoldsAColumn(tmp_path, figures):
+    """rho g H/2 of 100 Pa, a yield stress of 400 Pa: what creeps is
+    tau0 m, 100 times slower than what mu alone lets flow"""
+    def run(name, **water):
+        case = Setup(
+            cells=(30, 12), h=0.002, points=2, fluid={"mu": 1},
+            wall="noSlip", water=water, energy=False,
+            regions={"column": hydrostatic((0, 0), (0.02, 0.02))}).until(
+                0.1).write(tmp_path/name).prepare()
+        case.solve()
+        return case.points().x[:, 0].max() - 0.02
+    free = run("free")
+    held = run("held", viscosityModel="BinghamPapanastasiou",
+               BinghamPapanastasiouCoeffs={"tau0": 0.4, "m": 0.5})
+    figures.atLeast("front without a yield stress [m]", float(free), 2e-3)
+    figures.atMost("front with it [m]", float(held), 5e-4)
+
+
+def wallCase(wall, **entries):
+    return damBreak(wall=wall, energy=False, **entries)
+
+
+@pytest.mark.parametrize("setup, message", [
+    (wallCase({"type": "roughWall"}), "ks"),
+    (wallCase({"type": "roughWall", "ks": -1}), r"ks is -1.*Allowed: >= 0 m"),
+    (wallCase({"type": "smoothWall", "ks": 1}), "ks belongs to type roughWall"),
+    (wallCase("slip", water={"turbulence": "kOmega"}),
+     "unknown model kOmega.*Smagorinsky"),
+    (wallCase("slip", water={"turbulence": "mixingLength"}),
+     "needs walls that have a stress"),
+    (wallCase("slip", water={"turbulence": "kEpsilon"}), "k"),
+    (wallCase("slip", water={"viscosityModel": "Casson"}),
+     "unknown model Casson.*Newtonian"),
+    (wallCase("slip", water={
+        "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
+            "tau0": -1, "k": 1, "n": 1, "nu0": 1}}), "tau0"),
+    (wallCase({"type": "smoothWall"}, water={"turbulence": "mixingLength"},
+              soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
+     "beside solids a bed would be one"),
+    (wallCase("slip", soilWall={"type": "roughWall", "ks": 1e-3},
+              soilRegions={"bed": box((0.3, 0), (0.4, 0.04))}),
+     "a cloud that is no liquid")],
+    ids=lambda v: v[:24] if isinstance(v, str) else "")
+def testRefused(tmp_path, setup, message):
+    case = setup.steps(2).write(tmp_path/"case")
+    case.run("blockMesh")
+    with pytest.raises(CaseError, match=f"(?s){message}"):
+        case.run("setMaterialPoints")
+        case.solve()
