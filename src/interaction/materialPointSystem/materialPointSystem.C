@@ -10,6 +10,7 @@ License
 #include "bodies.H"
 #include "momentumStep.H"
 #include "phasePair.H"
+#include "relaxationZone.H"
 #include "functionNeeds.H"
 #include "phaseRole.H"
 #include "dictionaryEntries.H"
@@ -492,6 +493,15 @@ void Foam::mpm::materialPointSystem::makeClouds()
             density_[i] = solid->model().rhoS();
         }
     }
+    if (liquid_)
+    {
+        zones_ = relaxationZone::NewAll
+        (
+            properties_.subDict(liquid_->name()), *liquid_,
+            settings_.strictKeywords
+        );
+    }
+
     // Checked in a scene with one phase, too
     (void)readChoiceOrDefault
         (control_, "pressureForm", "gradient", {"gradient", "divergence"});
@@ -575,7 +585,7 @@ void Foam::mpm::materialPointSystem::makeMomentum()
         control_,
         momentumStep::scene
         {
-            clouds_, liquid_, solids_, pairs_, bodies_.get(),
+            clouds_, liquid_, solids_, pairs_, zones_, bodies_.get(),
             [this]()
             {
                 return gravityAt(time_.value() - 0.5*time_.deltaTValue());
@@ -1036,6 +1046,7 @@ void Foam::mpm::materialPointSystem::rebuild()
     grid_.rebuild();
     for (materialPointCloud& cloud : clouds_) cloud.rebuild();
     for (phasePair& pair : pairs_) pair.rebuild();
+    for (relaxationZone& zone : zones_) zone.place();
 }
 
 

@@ -12,6 +12,7 @@ Description
 #include "bodies.H"
 #include "effectsTable.H"
 #include "phasePair.H"
+#include "relaxationZone.H"
 #include "soilCloud.H"
 #include "waterCloud.H"
 #include "PstreamReduceOps.H"
@@ -143,6 +144,14 @@ void Foam::mpm::materialPointSystem::reportEffects() const
         bodies_.valid()
       ? string(names.str()) : string("materialPointProperties/bodies")
     );
+    OStringStream zones;
+    forAll(zones_, i) zones << (i ? ", " : "") << zones_[i].name();
+    table.add
+    (
+        "relaxation zones", zones_.size() > 0,
+        zones_.size()
+      ? string(zones.str()) : string("relaxationZones of the liquid")
+    );
     table.add
     (
         "body forces", forced_,
@@ -242,6 +251,11 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
                 << cloud.loadOn(b).force << " N";
         }
         Info<< nl;
+    }
+    for (const relaxationZone& zone : zones_)
+    {
+        Info<< "relaxation zone " << zone.name() << ": took " << zone.power()
+            << " W" << nl;
     }
     for (const phasePair& pair : pairs_) pair.log();
     if (solids_.size()) logBed(runTime);

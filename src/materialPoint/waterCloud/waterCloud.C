@@ -520,6 +520,7 @@ void Foam::mpm::waterCloud::checkDictionary
             "bodyForce",
             "pressureGradient",
             "inflowOutflow",
+            "relaxationZones",
             "role"
         },
         strictKeywords

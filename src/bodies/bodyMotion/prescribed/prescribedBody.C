@@ -21,14 +21,13 @@ namespace mpm
 
 Foam::point Foam::mpm::prescribedBody::centreAt(const scalar time) const
 {
-    return displacement_.valid()
-      ? reference_ + displacement_->value(time) : reference_;
+    return reference_ + path_->displacement(time);
 }
 
 
 Foam::tensor Foam::mpm::prescribedBody::rotationAt(const scalar time) const
 {
-    return turn_.valid() ? rotationOf(degToRad()*turn_->value(time)) : tensor(I);
+    return rotationOf(path_->rotation(time));
 }
 
 
@@ -36,16 +35,13 @@ void Foam::mpm::prescribedBody::checkPlane(const scalar time) const
 {
     if (empty_ < 0) return;
 
-    const vector way
-    (
-        displacement_.valid() ? displacement_->value(time) : vector(Zero)
-    );
-    vector tilt(turn_.valid() ? turn_->value(time) : vector(Zero));
+    const vector way(path_->displacement(time));
+    vector tilt(path_->rotation(time));
     tilt[empty_] = 0;
     if (way[empty_] != 0)
     {
         FatalIOErrorInFunction(dict_)
-            << "keyword displacement is " << way << " m at " << time
+            << "the displacement is " << way << " m at " << time
             << " s, out of the plane of the case." << nl
             << "    Allowed: 0 in direction " << vector::componentNames[empty_]
             << exit(FatalIOError);
@@ -53,8 +49,9 @@ void Foam::mpm::prescribedBody::checkPlane(const scalar time) const
     if (mag(tilt) > 0)
     {
         FatalIOErrorInFunction(dict_)
-            << "keyword rotation is " << turn_->value(time) << " degrees at "
-            << time << " s, not about the normal of the case's plane." << nl
+            << "the rotation is " << radToDeg()*path_->rotation(time)
+            << " degrees at " << time << " s, not about the normal of the"
+            << " case's plane." << nl
             << "    Allowed: direction " << vector::componentNames[empty_]
             << " only" << exit(FatalIOError);
     }
@@ -71,26 +68,10 @@ Foam::mpm::prescribedBody::prescribedBody
 )
 :
     dict_(subDictOf(dict, "motion")),
-    empty_(cells.nDim() < 3 ? cells.axis(2) : -1)
+    empty_(cells.nDim() < 3 ? cells.axis(2) : -1),
+    path_(bodyPath::New(dict_, cells, strict))
 {
-    checkKeywords(dict_, {"displacement", "rotation", "centre"}, strict);
-
-    if (dict_.found("displacement"))
-    {
-        displacement_ = Function1<vector>::New("displacement", dict_);
-    }
-    if (dict_.found("rotation"))
-    {
-        turn_ = Function1<vector>::New("rotation", dict_);
-    }
-    if (!displacement_.valid() && !turn_.valid())
-    {
-        FatalIOErrorInFunction(dict_)
-            << "neither displacement nor rotation is given." << nl
-            << "    Allowed: one of them or both, as functions of time, or type"
-            << " fixed" << exit(FatalIOError);
-    }
-    reference_ = dict_.lookupOrDefault<point>("centre", Zero);
+    reference_ = path_->centre();
     centre_ = reference_;
 }
 

@@ -6,6 +6,7 @@ License
 #include "explicitMomentum.H"
 #include "bodies.H"
 #include "phasePair.H"
+#include "relaxationZone.H"
 #include "soilCloud.H"
 #include "waterCloud.H"
 #include "addToRunTimeSelectionTable.H"
@@ -76,6 +77,12 @@ void Foam::mpm::explicitMomentum::solve(const scalar deltaT)
     for (phasePair& pair : pairs) pair.addForces(deltaT);
     for (materialPointCloud& cloud : clouds) cloud.updateNodes(deltaT);
     for (phasePair& pair : pairs) pair.exchangeMomentum(deltaT);
+    if (scene_.zones.size())
+    {
+        scene_.cost.start("relaxation zones");
+        for (relaxationZone& zone : scene_.zones) zone.apply(deltaT);
+        scene_.cost.stop();
+    }
 
     for (materialPointCloud& cloud : clouds) cloud.finishNodes(deltaT);
     if (scene_.solidBodies && scene_.solidBodies->anyPushed())
