@@ -109,11 +109,11 @@ def testHeightOfARegularWave(tmp_path, figures):
             "points": [(v, 0.0, 0.0) for v in x],
             "writeControl": "adjustableRunTime",
             "writeInterval": period/40}}, energy=False)
-    case = solved(setup.until(9*period), tmp_path)
+    case = solved(setup.until(8*period), tmp_path)
     data = np.loadtxt(
         case.path/"postProcessing"/"gauges"/"0"/"waveGauge.dat")
     t, eta = data[:, 0], data[:, 1:4]
-    late = t > 6*period + 1e-9
+    late = t > 5*period + 1e-9
     a = 2*(eta[late]*np.exp(-1j*omega*t[late])[:, None]).mean(axis=0)
     basis = np.stack([np.exp(-1j*k*np.array(x)), np.exp(1j*k*np.array(x))],
                      axis=1)
