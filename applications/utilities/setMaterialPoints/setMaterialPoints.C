@@ -22,6 +22,9 @@ Description
     Regions are half open, to a millionth of a cell: a point on the face that
     two of them share belongs to the upper one.
 
+    Ends with a forecast of the run (runForecast): memory, time step, steps,
+    time, output, what would be cheaper; not with \c -noForecast.
+
     Runs in serial (before decomposePar) or in parallel (after it, without
     points), with the same points in both.
 
@@ -98,7 +101,9 @@ Usage
 #include "cellDecomposition.H"
 #include "dictionaryEntries.H"
 #include "materialPointSystem.H"
+#include "runForecast.H"
 #include "waterPlacement.H"
+#include <ctime>
 
 using namespace Foam;
 
@@ -127,6 +132,11 @@ static void addOptions()
         "soilWeight",
         "number",
         "Cost of a point of soil over that of one of water (default: 3)"
+    );
+    argList::addBoolOption
+    (
+        "noForecast",
+        "Do not try some steps to say what the run will take"
     );
 }
 
@@ -207,24 +217,17 @@ static void place(const fvMesh& mesh, mpm::materialPointSystem& points)
 }
 
 
-// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
-
-int main(int argc, char *argv[])
+//- All that is asked for; the time directory that points were written to, empty
+//  if none were placed, and the CPU time that writing took
+static fileName fill
+(
+    const argList& args,
+    Time& runTime,
+    const bool weights,
+    const bool decomposition,
+    scalar& writing
+)
 {
-    addOptions();
-
-    #include "setRootCase.H"
-
-    sigFpe::unset(false);
-
-    const bool weights = args.found("weights");
-    const bool decomposition = args.found("decomposition");
-
-    autoPtr<mpm::caseLock> lock;
-    if (!weights && !decomposition) lock.reset(new mpm::caseLock(args));
-
-    #include "createTime.H"
-
     mpm::lattice::checkFiles(runTime);
 
     fvMesh mesh
@@ -247,7 +250,7 @@ int main(int argc, char *argv[])
         const mpm::cellDecomposition work(mesh, points);
         if (weights) work.writeWeights(ofSoil);
         else work.writeRanks();
-        return 0;
+        return fileName();
     }
 
     place(mesh, points);
@@ -264,9 +267,56 @@ int main(int argc, char *argv[])
     }
     Info<< endl;
 
+    const std::clock_t begin = std::clock();
     points.write();
+    writing = scalar(std::clock() - begin)/CLOCKS_PER_SEC;
 
-    Info<< "Written to " << runTime.timePath() << nl << nl << "End\n" << endl;
+    Info<< "Written to " << runTime.timePath() << nl << endl;
+
+    return runTime.timePath();
+}
+
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+int main(int argc, char *argv[])
+{
+    addOptions();
+
+    #include "setRootCase.H"
+
+    sigFpe::unset(false);
+
+    const bool weights = args.found("weights");
+    const bool decomposition = args.found("decomposition");
+
+    autoPtr<mpm::caseLock> lock;
+    if (!weights && !decomposition) lock.reset(new mpm::caseLock(args));
+
+    #include "createTime.H"
+
+    scalar writing = 0;
+    const fileName written
+    (
+        fill(args, runTime, weights, decomposition, writing)
+    );
+    if (written.empty()) return 0;
+
+    // The points are no longer in memory
+    if (Pstream::parRun() || args.found("noForecast"))
+    {
+        Info<< "No forecast of the run"
+            << (Pstream::parRun() ? ": in serial only" : "") << nl << endl;
+    }
+    else
+    {
+        mpm::runForecast
+        (
+            runTime, mpm::runForecast::size(written), writing
+        ).report();
+    }
+
+    Info<< "End\n" << endl;
 
     return 0;
 }

@@ -872,8 +872,10 @@ Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
 }
 
 
-void Foam::mpm::materialPointSystem::startDeltaT(Time& runTime) const
+void Foam::mpm::materialPointSystem::startDeltaT(Time& runTime)
 {
+    remaining_.start(runTime);
+
     // A run that ended may have a little left
     if (runTime.timeIndex() > 0) return;
 

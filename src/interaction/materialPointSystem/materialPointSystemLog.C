@@ -261,6 +261,8 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     if (solids_.size()) logBed(runTime);
     if (liquid_) logDensity();
     if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();
+    const string remaining(remaining_.line(runTime));
+    if (remaining.size()) Info<< remaining.c_str() << nl;
     Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
         << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl
         << endl;

@@ -1,0 +1,147 @@
+"""The forecast of setMaterialPoints, and what remains in the log of mpmFoam."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from caseBuilder import damBreak
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def forecast(path):
+    """The lines by their names"""
+    text = (path/"log.setMaterialPoints").read_text()
+    text = text[text.index("\nForecast of mpmFoam"):text.index("\nEnd\n")]
+    return dict(re.findall(r"^    (\S[^:\n]*): +(\S.*)$", text,
+                           re.MULTILINE)), text
+
+
+def number(line, pattern):
+    return float(re.search(pattern, line)[1])
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    setup = damBreak(h=0.01, points=3, mpm={"logInterval": 5})
+    setup.until(0.3, write=0.05)
+    case = setup.write(tmp_path_factory.mktemp("forecast")/"case").prepare()
+    case.solve()
+    return case
+
+
+def testForecast(run, figures):
+    """Steps and output against what the run made; the time is of this
+    machine"""
+    found, text = forecast(run.path)
+    steps = number(found["steps"], r"([\d.e+]+)")
+    figures.atMost("steps: forecast over truth",
+                   steps/run.log.stepCount, 1.5)
+    figures.atLeast("steps: forecast over truth",
+                    steps/run.log.stepCount, 1/1.5)
+    figures.contains("time step: limiter", found["time step"], "water sound")
+    times, each = re.search(r"(\d+) times of (\S+) MB",
+                            found["output"]).groups()
+    figures.equal("times that are written", int(times), 6)
+    size = sum(p.stat().st_size for p in (run.path/"0.3").rglob("*")
+               if p.is_file())
+    figures.atMost("bytes of a time: forecast over truth, distance to 1",
+                   abs(float(each)*1e6/size - 1), 0.1)
+    figures.contains("points", found["points"],
+                     f"water {len(run.points().x)}")
+    figures.holds("memory", float(re.search(
+        r"(\S+) MB", found["memory"])[1]) > 10, found["memory"])
+    for what in ["maxCo 0.7", "water pointsPerDirection 2", "soundSpeed",
+                 "cells twice as large"]:
+        figures.holds(f"cheaper: {what}", re.search(
+            rf"^ +{what}.*: 0\.\d+ of the time; \S", text, re.MULTILINE))
+
+
+def testRemains(run, figures):
+    """What remains falls to nothing, and with what is done makes the whole"""
+    text = (run.path/"log.mpmFoam").read_text()
+    entries = re.findall(
+        r"^Time = (\S+)\n.*?^Remaining = (\S+) s  on the clock = (\S+) s.*?"
+        r"^ExecutionTime = (\S+) s", text, re.MULTILINE | re.DOTALL)
+    entries = np.array(entries, dtype=float)
+    figures.equal("entries of the log, but for the first",
+                  len(entries) >= len(re.findall("^Time = ", text,
+                                                 re.MULTILINE)) - 1, True)
+    figures.equal("remains at the end", entries[-1, 1], 0)
+    half = entries[np.abs(entries[:, 0] - 0.15).argmin()]
+    # Others work on this machine, too
+    ratio = (half[1] + half[3])/entries[-1, 3]
+    figures.atMost("half way: done and remaining over the whole, factor",
+                   max(ratio, 1/ratio), 2)
+    rate = np.diff(entries[:, 1] + entries[:, 3])
+    figures.holds("it is followed", np.isfinite(rate).all())
+
+
+def testFoamLog(run, figures):
+    case = run.path
+    shutil.copy(ROOT/"etc"/"foamLog.db", case)
+    foamLog = Path(os.environ["WM_PROJECT_DIR"])/"bin"/"foamLog"
+    done = subprocess.run([str(foamLog), "log.mpmFoam"], cwd=case,
+                          capture_output=True, text=True, timeout=60)
+    figures.equal("exit status", done.returncode, 0)
+    for name, pattern in [("remaining_0", r"^Remaining = (\S+) s"),
+                          ("remainingClock_0", r"on the clock = (\S+) s")]:
+        values = [float(line.split()[1]) for line in
+                  (case/"logs"/name).read_text().splitlines()]
+        expected = [float(v) for v in re.findall(
+            pattern, (case/"log.mpmFoam").read_text(), re.MULTILINE)]
+        figures.equal(f"{name}: values", values, expected)
+
+
+def testNothingChanges(tmp_path, figures):
+    """The steps that are tried leave no trace: all files as without"""
+    files = {}
+    for name, options in [("with", []), ("without", ["-noForecast"])]:
+        case = damBreak(h=0.02).until(0.1).write(tmp_path/name)
+        case.run("blockMesh")
+        case.run("setMaterialPoints", *options)
+        start = case.path/"0"
+        files[name] = {
+            str(p.relative_to(case.path)): p.read_bytes()
+            for p in sorted(case.path.rglob("*"))
+            if p.is_file() and not p.name.startswith("log.")}
+        figures.holds("a start", start.is_dir())
+    figures.equal("same files", sorted(files["with"]),
+                  sorted(files["without"]))
+    figures.equal("files that differ", [
+        name for name in files["with"]
+        if files["with"][name] != files["without"][name]], [])
+    figures.holds("-noForecast says so", "No forecast" in (
+        tmp_path/"without"/"log.setMaterialPoints").read_text())
+
+
+def testRefused(tmp_path, figures):
+    """What the solver will refuse is said, with its reason; points are set"""
+    setup = damBreak(control={"adjustTimeStep": False, "deltaT": 0.01})
+    case = setup.until(0.1).write(tmp_path/"case").prepare()
+    _, text = forecast(case.path)
+    figures.contains("reason", text, "mpmFoam refuses this case")
+    figures.contains("entry", text, "keyword deltaT is 0.01")
+    figures.holds("points are there",
+                  (case.path/"0"/"lagrangian"/"water"/"x").is_file())
+
+
+def testInflow(tmp_path, figures):
+    """A channel that fills: points in the mean of the run"""
+    case = tmp_path/"case"
+    shutil.copytree(ROOT/"tutorials"/"waterInjection", case)
+    shutil.copytree(case/"0.orig", case/"0", dirs_exist_ok=True)
+    for command in ["blockMesh", "setMaterialPoints"]:
+        done = subprocess.run([command], cwd=case, capture_output=True,
+                              text=True, env={**os.environ, "PWD": str(case)})
+        assert done.returncode == 0, done.stdout
+        (case/f"log.{command}").write_text(done.stdout)
+    found, _ = forecast(case)
+    mean = number(found["points"], r"about ([\d.e+]+)")
+    # 868 in the run of 100 s
+    figures.atMost("forecast over 868, factor", max(mean/868, 868/mean), 1.5)
