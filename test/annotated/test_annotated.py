@@ -40,6 +40,7 @@ EXPLAINED_IN = {
     "applications/utilities/soilElementTest": "soilElementTestDict",
     "src/materialPoint/pointRegion": "setMaterialPointsDict",
     "src/interaction/placement": "setMaterialPointsDict",
+    "src/materialPoint/IO": "controlDict",
     "src/functionObjects": "controlDict",
 }
 

@@ -15,8 +15,9 @@ SHORTER = {"embankment.md": ("endTime -set 4 ", "endTime -set 0.02 ")}
 
 
 @pytest.mark.parametrize("name", [
-    "accuracyCost.md", "embankment.md", "fromInterFoam.md", "ownSand.md",
-    "restart.md", "solidsInTheMesh.md", "terrain.md"])
+    "accuracyCost.md", "embankment.md", "fromInterFoam.md",
+    "outputThatStaysSmall.md", "ownSand.md", "restart.md",
+    "solidsInTheMesh.md", "terrain.md"])
 def testCommands(name, tmp_path, figures):
     for path in re.findall(r"/usr/share/\S+", (HOWTO/name).read_text()):
         if not Path(path).exists():

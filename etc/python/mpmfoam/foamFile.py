@@ -104,8 +104,8 @@ def _open(path):
     found = _HEADER.search(data[:4096])
     if not found:
         raise FoamFileError(f"{path}: no FoamFile header")
-    header = dict(
-        re.findall(r'(\w+)\s+"?([^";]*)"?;', found[1].decode("ascii")))
+    header = {name: quoted or word for name, quoted, word in re.findall(
+        r'(\w+)\s+(?:"([^"]*)"|([^";]*));', found[1].decode("ascii"))}
     header.setdefault("format", "ascii")
     header["arch"] = dict(
         re.findall(r"(label|scalar)=(\d+)", header.get("arch", "")))

@@ -120,6 +120,7 @@ void Foam::mpm::materialPointHDF5::checkFields(const dictionary& dict) const
 
 Foam::List<Foam::labelList> Foam::mpm::materialPointHDF5::order
 (
+    const labelUList& points,
     std::vector<int64_t>& ids
 ) const
 {
@@ -135,7 +136,7 @@ Foam::List<Foam::labelList> Foam::mpm::materialPointHDF5::order
                 if (field != "id") return;
                 forRanks
                 (
-                    values()(),
+                    chosen(values(), points)(),
                     [&](const label rank, const scalarField& part)
                     {
                         place[rank].setSize(part.size());
@@ -173,6 +174,18 @@ Foam::List<Foam::labelList> Foam::mpm::materialPointHDF5::order
 
 
 template<class Type>
+Foam::tmp<Foam::Field<Type>> Foam::mpm::materialPointHDF5::chosen
+(
+    tmp<Field<Type>> values,
+    const labelUList& points
+) const
+{
+    if (selection_.all()) return values;
+    return tmp<Field<Type>>(new Field<Type>(values(), points));
+}
+
+
+template<class Type>
 std::vector<Foam::scalar> Foam::mpm::materialPointHDF5::gather
 (
     const Field<Type>& values,
@@ -204,7 +217,9 @@ std::vector<Foam::scalar> Foam::mpm::materialPointHDF5::gather
 
 Foam::wordList Foam::mpm::materialPointHDF5::keywords() const
 {
-    return wordList({"fields", "compressionLevel", "precision"});
+    wordList names({"fields", "compressionLevel", "precision"});
+    names.append(pointSelection::keywords());
+    return names;
 }
 
 
@@ -216,6 +231,13 @@ void Foam::mpm::materialPointHDF5::readEntries(const dictionary& dict)
     singlePrecision_ =
         readChoiceOrDefault(dict, "precision", "double", {"double", "single"})
      == "single";
+    selection_ = pointSelection
+    (
+        mesh_,
+        dict,
+        subDictOrEmpty(mesh_.solutionDict(), "MPM")
+            .lookupOrDefault<Switch>("strictKeywords", true)
+    );
 
     checkAlone(dict);
     checkFields(dict);
@@ -260,7 +282,11 @@ bool Foam::mpm::materialPointHDF5::write()
 {
     const clockTime timer;
     std::vector<int64_t> ids;
-    const List<labelList> place(order(ids));
+    const labelList points
+    (
+        selection_.all() ? labelList() : selection_.points(cloud())
+    );
+    const List<labelList> place(order(points, ids));
     const label nPoints = ids.size();
 
     if (Pstream::master())
@@ -281,7 +307,7 @@ bool Foam::mpm::materialPointHDF5::write()
             typedef typename std::decay<decltype(values()())>::type FieldType;
             const std::vector<scalar> all
             (
-                gather(values()(), place, nPoints)
+                gather(chosen(values(), points)(), place, nPoints)
             );
             if (Pstream::master())
             {

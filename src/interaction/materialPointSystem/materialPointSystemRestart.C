@@ -10,6 +10,7 @@ License
 #include "PstreamReduceOps.H"
 #include "cloud.H"
 #include "bodies.H"
+#include "lagrangianOutput.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "phasePair.H"
@@ -268,6 +269,7 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
     for (materialPointCloud& cloud : clouds_)
     {
         const dictionary& dict = state.subDict(cloud.name());
+        lagrangianOutput::checkWhole(cloud, dict, stateName);
         cloud.readState(dict);
         cloud.readPoints();
 
@@ -283,6 +285,7 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
                 << exit(FatalIOError);
         }
     }
+    lagrangianOutput::New(mesh_, clouds_, settings_.strictKeywords);
     firstStep_ = clouds_[0].stepCount();
     if (bodies_.valid() && firstStep_ > 0)
     {
@@ -408,6 +411,7 @@ void Foam::mpm::materialPointSystem::writeState() const
     {
         dictionary dict;
         cloud.writeState(dict);
+        lagrangianOutput::record(cloud, dict);
         state.set(cloud.name(), dict);
     }
     if (bodies_.valid())

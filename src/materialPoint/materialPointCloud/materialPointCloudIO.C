@@ -5,11 +5,13 @@ License
 
 #include "materialPointCloud.H"
 #include "lagrangianGeometry.H"
+#include "lagrangianOutput.H"
 #include "machineMemory.H"
 #include "FlatOutput.H"
 #include "PstreamBuffers.H"
 #include "PstreamReduceOps.H"
 #include <algorithm>
+#include <fstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -59,6 +61,57 @@ bool writeField
 }
 
 
+//- Write a lagrangian field in numbers of 4 bytes, uncompressed. The header of
+//  OpenFOAM speaks of its own numbers.
+template<class Type>
+bool writeSingle
+(
+    const word& name,
+    const objectRegistry& cloud,
+    const Field<Type>& field
+)
+{
+    IOField<Type> io(fieldHeader(name, cloud, IOobject::NO_READ));
+    OStringStream os(IOstream::BINARY);
+    io.writeHeader(os);
+    std::string header(os.str());
+    const std::string own("scalar=" + std::to_string(8*sizeof(scalar)));
+    const auto at = header.find(own);
+    if (at == std::string::npos) return false;
+    header.replace(at, own.size(), "scalar=32");
+
+    mkDir(io.objectPath().path());
+    std::ofstream file(io.objectPath(), std::ios::binary);
+    file << header << field.size();
+    if (field.size())
+    {
+        const label n = pTraits<Type>::nComponents;
+        std::vector<float> values(size_t(field.size())*n);
+        forAll(field, i)
+        {
+            for (label c = 0; c < n; ++c)
+            {
+                values[size_t(i)*n + c] = float(component(field[i], c));
+            }
+        }
+        file << '(';
+        file.write
+        (
+            reinterpret_cast<const char*>(values.data()),
+            values.size()*sizeof(float)
+        );
+        file << ')';
+    }
+    else
+    {
+        file << "()";
+    }
+    file << "\n";
+    file.close();
+    return file.good();
+}
+
+
 //- Read a lagrangian field and hand each value to set(i, value)
 template<class Type, class Set>
 bool readValues
@@ -104,6 +157,67 @@ void storeField
 )
 {
     cloud::createIOField<Type>(name, field().size(), obr) = field;
+}
+
+//- Write a part of a cloud
+bool writePart
+(
+    const mpm::materialPointCloud& cloud,
+    const polyMesh& mesh,
+    const mpm::lagrangianOutput::part& part,
+    const pointField& position,
+    const labelList& cell,
+    MPM_WRITE_PARAMETERS
+)
+{
+    const labelList points(part.points.points(cloud));
+    const pointField at(position, points);
+    labelList in(points.size());
+    forAll(in, i) in[i] = cell[points[i]];
+
+    bool ok = true;
+    for
+    (
+        const auto type :
+        {
+            cloud::geometryType::POSITIONS,
+            cloud::geometryType::COORDINATES
+        }
+    )
+    {
+        // What reconstructPar goes by
+        if (type == cloud::geometryType::COORDINATES && !Pstream::parRun())
+        {
+            continue;
+        }
+        ok = mpm::lagrangianGeometry(type, cloud, mesh, at, in)
+            .writeObject(MPM_WRITE_ARGUMENTS) && ok;
+    }
+
+    const bool ascii = MPM_WRITE_FORMAT == IOstream::ASCII;
+    const unsigned digits = IOstream::defaultPrecision();
+    cloud.visitFields
+    (
+        [&](const word& field, const auto& values)
+        {
+            if (!part.wanted(field)) return;
+
+            typedef typename std::decay<decltype(values()())>::type FieldType;
+            tmp<FieldType> chosen(new FieldType(values()(), points));
+
+            // Ids are counts, which no digit of may be lost
+            const bool single = part.single && field != "id";
+            if (single && !ascii)
+            {
+                ok = writeSingle(field, cloud, chosen()) && ok;
+                return;
+            }
+            if (single) IOstream::defaultPrecision(7);
+            ok = writeField(field, cloud, chosen, MPM_WRITE_ARGUMENTS) && ok;
+            IOstream::defaultPrecision(digits);
+        }
+    );
+    return ok;
 }
 
 } // End anonymous namespace
@@ -741,6 +855,17 @@ bool Foam::mpm::materialPointCloud::writeObject(MPM_WRITE_PARAMETERS) const
     pointField position;
     labelList cell;
     geometry(position, cell);
+
+    const lagrangianOutput::part* part = lagrangianOutput::of(*this);
+    if (part)
+    {
+        const bool ok = writePart
+        (
+            *this, mesh_, *part, position, cell, MPM_WRITE_ARGUMENTS
+        );
+        IOstream::defaultPrecision(given);
+        return ok;
+    }
 
     bool ok = true;
     for
