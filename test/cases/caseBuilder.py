@@ -473,7 +473,8 @@ class RunningCase:
 
     def prepare(self):
         self.run("blockMesh")
-        self.run("setMaterialPoints")
+        # test_forecast has the forecasts
+        self.run("setMaterialPoints", "-noForecast")
         return self
 
     def cellZone(self, name, lower, upper):
