@@ -19,6 +19,7 @@ EXPLAINED_IN = {
     "src/interaction/bedLoadModel": "materialPointProperties",
     "src/interaction/erosionCriterion": "controlDict",
     "src/interaction/phasePair": "materialPointProperties",
+    "src/interaction/relaxationZone": "materialPointProperties",
     "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
     "src/bodies": "materialPointProperties",
@@ -119,13 +120,15 @@ def testKeywordsAreFound():
 
 @pytest.mark.parametrize("source, entry", cases(optional))
 def testDefault(source, entry):
-    """An entry shows its default, or the comment above it says so"""
+    """An entry, commented out or not, shows its default, or the comment above
+    it says so"""
     keyword, default = entry
     # Some are read from another dictionary than their neighbours
     text = explained(dictionaryOf(source)) + "".join(
         explained(p.name) for p in sorted(ANNOTATED.iterdir()))
     comment, value = re.search(
-        rf"((?:^ *//.*\n)*)^ *{keyword} +(\S+);", text, re.M).groups()
+        rf"((?:^ *//.*\n)*)^ *(?:// )?{keyword} +(\S+);", text,
+        re.M).groups()
     assert value == default or re.search(rf"Default:? {default}\b", comment)
 
 

@@ -603,12 +603,12 @@ class Study:
                 raise AccuracyCostError(
                     f"{self.case}: the case itself does not run:\n"
                     + failed.read_text())
-            if not (base.path/"log.mpmFoam").is_file():
-                raise AccuracyCostError(f"{self.output}: nothing has been run")
-            log = runLog.readLog(base.path/"log.mpmFoam")
+            # The budget may end before the solver begins
+            log = base.path/"log.mpmFoam"
+            came = (runLog.readLog(log).time or 0) if log.is_file() else 0
             raise AccuracyCostError(
                 f"{self.case}: the case itself takes more than the budget: it "
-                f"came to {log.time or 0:g} s.\n    Allowed: a larger "
+                f"came to {came:g} s.\n    Allowed: a larger "
                 "--budget, or an earlier --endTime")
         for metric in self.metrics:
             metric.read(base.path)

@@ -26,8 +26,8 @@ void Foam::mpm::waterCloud::select()
     if (settings_.coupled && turbulence_.valid() && turbulence_->needsWalls())
     {
         FatalIOErrorInFunction(dict_)
-            << "keyword turbulence is " << turbulence_->type() << ", which needs"
-            << " the distance from walls; beside solids a bed would be one,"
+            << "keyword turbulence is " << turbulence_->type()
+            << ", which needs the distance from walls; beside solids a bed would be one,"
             << " too." << nl << "    Allowed beside solids: none, Smagorinsky,"
             << " kEpsilon" << exit(FatalIOError);
     }
@@ -372,7 +372,10 @@ void Foam::mpm::waterCloud::setEntered
     }
     setState(first, volume, pressure);
 
-    if (turbulence_.valid()) turbulence_->setEntered(first, first + depth.size());
+    if (turbulence_.valid())
+    {
+        turbulence_->setEntered(first, first + depth.size());
+    }
 
     // Density falls with height
     const scalar g = mag(g_);

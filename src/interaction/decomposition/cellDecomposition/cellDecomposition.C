@@ -200,8 +200,8 @@ void Foam::mpm::cellDecomposition::checkPatchTypes
         {
             const word type(e.dict().get<word>("type"));
             Info<< "--> " << file.objectPath() << ", patch " << e.keyword()
-                << ": decomposePar does not know the type " << type << " and asks"
-                << " for its value." << nl << "    For it, add"
+                << ": decomposePar does not know the type " << type
+                << " and asks for its value." << nl << "    For it, add"
                 << " libs (\"libmpmBackgroundGrid.so\"); to"
                 << " system/controlDict" << nl << endl;
             return;

@@ -43,7 +43,12 @@ Foam::mpm::kEpsilon::kEpsilon
     k_(storage.add("k", pointStorage::scalarValue)),
     epsilon_(storage.add("epsilon", pointStorage::scalarValue))
 {
-    checkKeywords(coeffs, {"k", "epsilon", "Cmu", "C1", "C2", "sigmak", "sigmaEps"}, strictKeywords);
+    checkKeywords
+    (
+        coeffs,
+        {"k", "epsilon", "Cmu", "C1", "C2", "sigmak", "sigmaEps"},
+        strictKeywords
+    );
 }
 
 

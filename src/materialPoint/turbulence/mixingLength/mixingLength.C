@@ -30,7 +30,10 @@ Foam::mpm::mixingLength::mixingLength
     kappa_(readBoundedOrDefault(coeffs, "kappa", dimless, 0.41, 0, 1)),
     maxLength_
     (
-        readBoundedOrDefault(coeffs, "maxLength", dimLength, GREAT, 0, GREAT, false, true)
+        readBoundedOrDefault
+        (
+            coeffs, "maxLength", dimLength, GREAT, 0, GREAT, false, true
+        )
     ),
     walls_(grid, U)
 {
