@@ -153,3 +153,15 @@ def testInflow(tmp_path, figures):
     mean = number(found["points"], r"about ([\d.e+]+)")
     # 868 in the run of 100 s
     figures.atMost("forecast over 868, factor", max(mean/868, 868/mean), 1.5)
+
+
+def testFarEnd(tmp_path, figures):
+    """A run that is stopped by other means than an end in 1e18 s"""
+    case = damBreak(control={
+        "endTime": 1e18, "stopAt": "nextWrite", "writeControl": "timeStep",
+        "writeInterval": 50}, mpm={"logInterval": 10}).write(
+            tmp_path/"case").prepare()
+    text = case.solve().text
+    figures.contains("log", re.search(r"Remaining = \S+ s .*", text),
+                     "Remaining = ")
+    figures.holds("no date", "until" not in text)

@@ -83,7 +83,11 @@ Foam::string Foam::mpm::remainingTime::line(const Time& runTime)
     os.precision(3);
     os  << "Remaining = " << ratio*(current.cpu - from.cpu) << " s  on the"
         << " clock = " << clock << " s";
-    if (clock > 60)
+
+    // Runs that are stopped by other means than their end may have a thousand
+    // years to go, for which no calendar is asked
+    constexpr scalar year = 366*86400;
+    if (clock > 60 && clock < year)
     {
         // When, as a clock says it
         const std::time_t end = std::time(nullptr) + std::time_t(clock);

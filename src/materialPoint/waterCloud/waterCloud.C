@@ -947,7 +947,7 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
     table.add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
     table.add
     (
-        "  viscosity of the shear rate", viscosity_.valid(),
+        "  shear-rate viscosity", viscosity_.valid(),
         viscosity_.valid() ? viscosity_->description() : "viscosityModel"
     );
     table.add
