@@ -127,7 +127,7 @@ def testDefault(source, entry):
     text = explained(dictionaryOf(source)) + "".join(
         explained(p.name) for p in sorted(ANNOTATED.iterdir()))
     comment, value = re.search(
-        rf"((?:^ *//.*\n)*)^ *(?:// )?{keyword} +(\S+);", text,
+        rf"((?:^ *//.*\n)*)^ *(?:// *)?{keyword} +(\S+);", text,
         re.M).groups()
     assert value == default or re.search(rf"Default:? {default}\b", comment)
 

@@ -52,24 +52,20 @@ Foam::scalar Foam::mpm::waterCloud::schemeViscosity() const
 {
     const scalar h = grid_.cells().minSpacing();
     const scalar ch = fluid_.soundSpeed()*h;
-    const scalar moment = 1e-9*h/fluid_.soundSpeed();
-    const scalar fraction = transfer_->picFraction(moment);
+    if (transfer_->filtered()) return 4e-4*ch;
 
-    if (transfer_->affine())
-    {
-        return transfer_->filtered()
-          ? 4e-4*ch
-          : 0.0083*fraction/moment*sqr(h) + 7e-4*ch;
-    }
-    return (fraction >= 1 ? 0.3 : transfer_->filtered() ? 0.044 : 0.03)*ch;
+    // The rate of APIC
+    const scalar moment = 1e-9*h/fluid_.soundSpeed();
+    const scalar rate = transfer_->picFraction(moment)/moment;
+    return 0.0083*rate*sqr(h) + 7e-4*ch;
 }
 
 
-void Foam::mpm::waterCloud::porosities(std::vector<scalar>& n) const
+void Foam::mpm::waterCloud::findPorosities()
 {
     // Means over the corners of the cell
     const std::vector<scalar>& inverseVolume = boundary_.inverseVolume();
-    n.resize(size());
+    porosity_.resize(size());
     for (label p = 0; p < size(); ++p)
     {
         scalar pores = 0, space = 0;
@@ -85,7 +81,7 @@ void Foam::mpm::waterCloud::porosities(std::vector<scalar>& n) const
             pores += 1/inversePores;
             space += 1/inverseVolume[node];
         }
-        n[p] = space > 0 ? pores/space : 1;
+        porosity_[p] = space > 0 ? pores/space : 1;
     }
 }
 
@@ -111,7 +107,6 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
     }
     if (turbulence_.valid())
     {
-        std::vector<scalar> porosity;
         turbulenceModel::points p{};
         p.n = size();
         p.cell = points_.cell();
@@ -123,8 +118,8 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
         p.shearRate = rate;
         if (coupling_)
         {
-            porosities(porosity);
-            p.porosity = porosity.data();
+            findPorosities();
+            p.porosity = porosity_.data();
         }
         turbulence_->correct
             (deltaT, fluid_.mu()/fluid_.rho0(), p, *kernels_, nut);
@@ -514,12 +509,10 @@ void Foam::mpm::waterCloud::checkDictionary
             "corners",
             "tensionCutOff",
             "viscosityModel",
-            "BinghamPapanastasiouCoeffs",
-            "HerschelBulkleyCoeffs",
+            dict.lookupOrDefault<word>("viscosityModel", "Newtonian")
+          + "Coeffs",
             "turbulence",
-            "mixingLengthCoeffs",
-            "SmagorinskyCoeffs",
-            "kEpsilonCoeffs",
+            dict.lookupOrDefault<word>("turbulence", "none") + "Coeffs",
             "bodyForce",
             "pressureGradient",
             "inflowOutflow",
@@ -917,14 +910,19 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
         "  viscous stress", fluid_.viscous(),
         "mu = " + Foam::name(fluid_.mu()) + " Pa s"
     );
-    const scalar nu = schemeViscosity();
+
+    // PIC and XPIC dissipate by step, whatever that is
+    const scalar nu = transfer_->affine() ? schemeViscosity() : 0;
     string text("about " + Foam::name(nu) + " m2/s for eddies of 16 cells");
     if (fluid_.viscous() && nu*fluid_.rho0() > fluid_.mu())
     {
         text += ", " + Foam::name(nu*fluid_.rho0()/fluid_.mu())
           + " times mu/rho0";
     }
-    table.add("  viscosity of the scheme", true, text);
+    if (transfer_->affine())
+    {
+        table.add("  viscosity of the scheme", true, text);
+    }
     table.add
     (
         "  pressure smoothing", settings_.smoothing,

@@ -25,6 +25,14 @@ class waterKernelsFor
 
     waterCloud& cloud_;
 
+    //- Of diffuse(), kept from step to step; empty if nothing diffuses
+    struct
+    {
+        nodeField<nodeVector> sum, change, field;
+        std::vector<scalar> slopes[2];
+    }
+    diffusion_;
+
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
 
@@ -323,10 +331,12 @@ public:
         waterCloud& c = cloud_;
         const pointView<dim> points(c.view<dim>());
         const size_t n = c.grid_.nNodes();
-        nodeField<nodeVector> sum(n, nodeVector{});
-        nodeField<nodeVector> change(n, nodeVector{});
-        nodeField<nodeVector> field(n, nodeVector{});
-        std::vector<scalar> slopes[2];
+        auto& [sum, change, field, slopes] = diffusion_;
+        for (nodeField<nodeVector>* f : {&sum, &change, &field})
+        {
+            f->assign(n, nodeVector{});
+        }
+        const label stride = c.size() + nLanes;
 
         kernels_.scalarsToGrid
         (
@@ -351,9 +361,8 @@ public:
                     field[i][dim] = m > 0 ? sum[i][s]/m : 0;
                 }
             );
-            slopes[s].resize(dim*(c.size() + nLanes));
+            slopes[s].resize(dim*stride);
             scalar* slope = slopes[s].data();
-            const label stride = c.size() + nLanes;
             kernels_.scalarToPoints
             (
                 points,
@@ -374,7 +383,6 @@ public:
             );
         }
 
-        const label stride = c.size() + nLanes;
         kernels_.fluxesToGrid
         (
             points,

@@ -5,6 +5,7 @@ License
 
 #include "frictionalWall.H"
 #include "constrainedWallFvPatchVectorField.H"
+#include "patchValues.H"
 #include "addToRunTimeSelectionTable.H"
 #include <cmath>
 
@@ -124,24 +125,7 @@ Foam::mpm::frictionalWall::frictionalWall
 
 void Foam::mpm::frictionalWall::build(const wallNodes& walls)
 {
-    // Sum and number of the coefficients by node and side
-    nodeField<packed<8>> sum(grid_.nNodes(), packed<8>{});
-    nodeField<packed<8>> number(grid_.nNodes(), packed<8>{});
-    walls.sides().forWallNodes
-    (
-        [&](const label celli, const label side, const label node)
-        {
-            const auto found =
-                coefficient_.cfind(walls.sides().patch(celli, side));
-            if (found.found())
-            {
-                sum[node][side] += found.val();
-                number[node][side] += 1;
-            }
-        }
-    );
-    grid_.exchange().sum(sum);
-    grid_.exchange().sum(number);
+    const patchValues values(walls, coefficient_);
 
     walls.forFreeNodes
     (
@@ -149,7 +133,7 @@ void Foam::mpm::frictionalWall::build(const wallNodes& walls)
         {
             for (label side = 0; side < 2*grid_.nDim(); ++side)
             {
-                if (!(number[node][side] > 0)) continue;
+                if (!(values.number(node, side) > 0)) continue;
 
                 // The mean over the sides that meet here
                 nodes_.push_back
@@ -159,7 +143,7 @@ void Foam::mpm::frictionalWall::build(const wallNodes& walls)
                         node,
                         side/2,
                         side % 2 ? 1 : -1,
-                        sum[node][side]/walls.count(node, side),
+                        values.sum(node, side)/walls.count(node, side),
                         walls.next(node, side)
                     }
                 );

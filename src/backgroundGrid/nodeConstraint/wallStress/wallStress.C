@@ -5,6 +5,7 @@ License
 
 #include "wallStress.H"
 #include "constrainedWallFvPatchVectorField.H"
+#include "patchValues.H"
 #include "wallLaw.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -33,6 +34,7 @@ Foam::mpm::wallStress::wallStress
     {
         const dictionary& dict = Up->coeffs();
         patch_ = Up->patch().name();
+        coeffs_ = dict;
 
         // A smooth wall is one without roughness
         scalar ks = 0;
@@ -74,24 +76,7 @@ void Foam::mpm::wallStress::build(const wallNodes& walls)
     const label nDim = grid_.nDim();
     const lattice& cells = grid_.cells();
 
-    // Sum of the roughness, and number, by node and side
-    nodeField<packed<8>> sum(grid_.nNodes(), packed<8>{});
-    nodeField<packed<8>> number(grid_.nNodes(), packed<8>{});
-    walls.sides().forWallNodes
-    (
-        [&](const label celli, const label side, const label node)
-        {
-            const auto found =
-                roughness_.cfind(walls.sides().patch(celli, side));
-            if (found.found())
-            {
-                sum[node][side] += found.val();
-                number[node][side] += 1;
-            }
-        }
-    );
-    grid_.exchange().sum(sum);
-    grid_.exchange().sum(number);
+    const patchValues values(walls, roughness_);
 
     walls.forFreeNodes
     (
@@ -99,7 +84,7 @@ void Foam::mpm::wallStress::build(const wallNodes& walls)
         {
             for (label side = 0; side < 2*nDim; ++side)
             {
-                const scalar n = number[node][side];
+                const scalar n = values.number(node, side);
                 if (!(n > 0)) continue;
 
                 // Each side of a cell shares its area among its corners
@@ -118,7 +103,7 @@ void Foam::mpm::wallStress::build(const wallNodes& walls)
                     {
                         node,
                         side/2,
-                        sum[node][side]/n,
+                        values.sum(node, side)/n,
                         area,
                         next < 0 ? node : next
                     }
@@ -145,11 +130,11 @@ void Foam::mpm::wallStress::finish(const scalar deltaT, nodeMotion& nodes)
 {
     if (!(rho_ > 0))
     {
-        FatalErrorInFunction
+        FatalIOErrorInFunction(coeffs_)
             << "patch " << patch_ << " is a smoothWall or roughWall of a cloud"
             << " that is no liquid." << nl
             << "    Allowed for solids: slip, noSlip, frictional"
-            << exit(FatalError);
+            << exit(FatalIOError);
     }
 
     const label nDim = grid_.nDim();

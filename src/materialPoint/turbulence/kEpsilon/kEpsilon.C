@@ -76,15 +76,16 @@ void Foam::mpm::kEpsilon::correct
 
     react(deltaT, nu, p, k, epsilon);
 
-    std::vector<scalar> Dk(p.n + nLanes), Depsilon(p.n + nLanes);
+    Dk_.resize(p.n + nLanes);
+    Depsilon_.resize(p.n + nLanes);
     for (label i = 0; i < p.n; ++i)
     {
         const scalar eddy = eddyViscosity(k[i], epsilon[i]);
-        Dk[i] = nu + eddy/sigmak_;
-        Depsilon[i] = nu + eddy/sigmaEps_;
+        Dk_[i] = nu + eddy/sigmak_;
+        Depsilon_[i] = nu + eddy/sigmaEps_;
     }
     scalar* const values[2] = {k, epsilon};
-    const scalar* const diffusivities[2] = {Dk.data(), Depsilon.data()};
+    const scalar* const diffusivities[2] = {Dk_.data(), Depsilon_.data()};
     kernels.diffuse(deltaT, values, diffusivities);
 
     for (label i = 0; i < p.n; ++i)
@@ -105,6 +106,11 @@ void Foam::mpm::kEpsilon::react
 ) const
 {
     const scalar h = grid_.cells().minSpacing();
+
+    // Water at rest at a wall has no eddies, and k^2/epsilon must exist: they
+    // are then 9e-14 m2/s
+    constexpr scalar least = 1e-12;
+
     for (label i = 0; i < p.n; ++i)
     {
         if (walls_.any())
@@ -130,12 +136,12 @@ void Foam::mpm::kEpsilon::react
                     ),
                     VSMALL
                 );
-                k[i] = max(sqr(uStar)/std::sqrt(Cmu_), 1e-12);
+                k[i] = max(sqr(uStar)/std::sqrt(Cmu_), least);
                 epsilon[i] = max
                 (
                     pow3(uStar)
                    /(wallLaw::kappa*(y + walls_.roughness(p.cell[i])/30)),
-                    1e-12
+                    least
                 );
                 continue;
             }
