@@ -324,8 +324,9 @@ class Build:
                             f"{os.environ.get('LD_LIBRARY_PATH', '')}")
         for part in ["lib", "bin"]:
             (directory/part).mkdir(exist_ok=True)
-        result = subprocess.run(["./Allwmake", "-j"], cwd=source, text=True,
-                                capture_output=True, env=self.environment)
+        result = subprocess.run(
+            ["./Allwmake", "-tests", "-j"], cwd=source, text=True,
+            capture_output=True, env=self.environment)
         if result.returncode:
             sys.exit(result.stdout[-1000:] + result.stderr)
 
