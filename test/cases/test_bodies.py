@@ -303,6 +303,35 @@ def testABlockStandsBelowItsAngleOfFriction(tmp_path, figures):
     figures.atMost("way from 0.1 s on over h", (s[-1] - s[1])/h, 0.02)
 
 
+def testStressOfSandAtABody(tmp_path, figures):
+    """An endless layer at rest on a slope below the angle of friction: the first
+    rows above the body bear what is above them"""
+    h, rows, degrees = 0.01, 6, 20
+    t, base, rho = np.radians(degrees), 6*h, 2650/1.7
+    case = solved(Setup(
+        cells=(4, 6 + rows + 4), h=h, points=2, regions={},
+        g=(G*np.sin(t), -G*np.cos(t), 0), mpm={"maxSoilSoundSpeed": 25},
+        soil={"DruckerPragerCoeffs": {
+            "rhoS": 2650, "d": 1e-3, "e0": 0.7, "E0": 216, "n": 0.5, "nu": 0.2,
+            "phi": 31, "psi": 0}},
+        soilRegions={"sand": box((0, base), (4*h, base + rows*h),
+                                 stress="geostatic", saturated=False)},
+        bodies={"floor": {"type": "fixed",
+                          "surface": box((-1, -1), (1, base)),
+                          "soil": {"frictionCoefficient": 0.5}}},
+        energy=False).cyclic("x").until(0.15), tmp_path)
+    x, sigma = (case.case.cloudField(case.times[-1], "soil", name)
+                for name in ["x", "sigma"])
+    above = base + rows*h - x[:, 1]
+    for low, high in [(0, 0.5), (0.5, 1), (1, 1.5)]:
+        row = abs(x[:, 1] - base - 0.5*(low + high)*h) < 0.25*h
+        weight = rho*G*above[row].mean()
+        for name, stress, part in [("normal", -sigma[row, 3], np.cos(t)),
+                                   ("shear", sigma[row, 1], np.sin(t))]:
+            figures.atMost(f"error of the {name} stress, {low} to {high} h, %",
+                           100*abs(stress.mean()/(weight*part) - 1), 12)
+
+
 def testBedAroundAPipe(tmp_path, figures):
     """Sand and water at rest around a pipe that is half in the bed"""
     h = 0.01

@@ -140,7 +140,8 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
     }
 
     // What friction can bear: the normal impulse, shared among the nodes of the
-    // contact around by their mass, as single nodes lose contact now and then
+    // contact around, as single nodes lose contact now and then, by what they ask
+    // for. By their mass those in the body, which have next to none, would slip
     std::vector<scalar> bears(nodes_.size(), 0);
     DynamicList<label> around;
     for (const label k : near_)
@@ -148,18 +149,20 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
         if (!(steady[k] > 0)) continue;
         around.clear();
         around.append(k);
-        scalar masses = mass_[k];
+        scalar asked = mag(along[k]);
         for (label j = 0; j < nodes_.nNeighbours(); ++j)
         {
             const label neighbour = nodes_.neighbours(k)[j];
             if (neighbour < 0 || !inRange_.test(neighbour)) continue;
             if (!(mass_[neighbour] > 0)) continue;
             around.append(neighbour);
-            masses += mass_[neighbour];
+            asked += mag(along[neighbour]);
         }
+        if (!(asked > 0)) continue;
         for (const label j : around)
         {
-            bears[j] += friction_[nodes_[k].body]*steady[k]*mass_[j]/masses;
+            bears[j] +=
+                friction_[nodes_[k].body]*steady[k]*mag(along[j])/asked;
         }
     }
 
