@@ -20,6 +20,7 @@ for place in ["etc/python", "test", "test/cases"]:
 
 import bodies as shapes  # noqa: E402
 from caseBuilder import G, RHO, Setup, box, hydrostatic  # noqa: E402
+from heave import freeHeave  # noqa: E402
 from mpmfoam import figureTable  # noqa: E402
 
 RESULTS = HERE/"results"/"bodies.csv"
@@ -185,7 +186,7 @@ def sphere(name, h):
 
 # --- motion ---------------------------------------------------------------
 
-def addedMass(name, cells):
+def addedMass(name, cells, transfer="APIC"):
     h, amplitude, period, length = 0.0125, 0.004, 0.2, 2.0
     radius, omega = cells*h, 2*np.pi/period
     table = " ".join(
@@ -194,7 +195,7 @@ def addedMass(name, cells):
     case = solve(name, withForces(Setup(
         cells=(round(length/h), round(length/2/h)), h=h, points=2,
         regions={"pool": hydrostatic((0, 0), (length, length/2 - 0.05))},
-        fluid={"soundSpeed": 60},
+        fluid={"soundSpeed": 60}, water={"transfer": transfer},
         bodies={"ball": {
             "type": "prescribed",
             "surface": shapes.cylinder((length/2, length/4), radius),
@@ -242,8 +243,9 @@ def wedge(name, degrees, h, gravity):
             np.linalg.norm(case.points().U, axis=1).max()/speed, "finite"
 
 
-def floating(name, density, h, release):
-    size, level, length = np.array([0.2, 0.1]), 0.4, 3.0
+def floatingBox(name, density, h, release, length, end, **entries):
+    """A box that may heave, let go at rest; its height over rest [m] in time"""
+    size, level = np.array([0.2, 0.1]), 0.4
     lower = np.array([length/2 - size[0]/2,
                       level - density*size[1] + release])
     centre = (*(lower + size/2), 0.0)
@@ -257,20 +259,48 @@ def floating(name, density, h, release):
             "mass": mass, "centreOfMass": centre,
             "momentOfInertia": (inertia,)*3, "constraints": {"heave": {
                 "sixDoFRigidBodyMotionConstraint": "line",
-                "direction": (0, 1, 0)}}}}}).until(3, 3)))
+                "direction": (0, 1, 0)}}}}}, **entries).until(end, end)))
     data = series(case)
     y = data[:, 8] - size[1]/2 - (level - density*size[1])
-    if not release:
-        yield ("error of the draught, %",
-               100*abs(y).max()/(density*size[1]), "<= 2")
-        return
-    # The box has risen as it was placed, and the water fallen by that
-    y -= size[0]*release/length
-    t = data[:, 0]
-    trough = np.argmin(np.where(t < 1, y, np.inf))
-    yield "time to the first trough, s", t[trough], "stated"
-    yield "first trough over release, %", 100*y[trough]/release, "stated"
-    yield "highest later over release, %", 100*y[trough:].max()/release, "< 100"
+    # It was placed above rest, and less of the water beside it
+    return data[:, 0], y - size[0]*release/length, density*size[1]
+
+
+def floating(name, density, h):
+    t, y, draught = floatingBox(name, density, h, 0, 3.0, 3)
+    yield "error of the draught, %", 100*abs(y).max()/draught, "<= 2"
+
+
+def quiet(name, h, periods=20):
+    """Released at rest, where it floats"""
+    period = 0.74
+    t, y, draught = floatingBox(name, 0.5, h, 0, 1.2, periods*period, points=2,
+                                fluid={"soundSpeed": 20})
+    for part, chosen in [("first", t < 0.5*t[-1]), ("second", t > 0.5*t[-1])]:
+        yield (f"largest way from rest, {part} half of {periods} periods, "
+               "% of the draught", 100*abs(y[chosen]).max()/draught, "<= 2")
+
+
+def extremes(t, y):
+    """Times and values of the first trough and of the crest behind it"""
+    i = int(np.argmin(np.where(t < 0.65, y, np.inf)))
+    j = i + int(np.argmax(y[i:]))
+    return t[i], y[i], t[j], y[j]
+
+
+def heave(name, h, transfer, release=0.015):
+    """Against linear potential theory (heave.py)"""
+    t, y, draught = floatingBox(
+        name, 0.5, h, release, 2.4, 1.0, points=2, fluid={"soundSpeed": 20},
+        water={"transfer": transfer})
+    at = np.linspace(0, 1.2, 2401)
+    z, _ = freeHeave(0.2, draught, 0.4, RHO*0.2*draught, at)
+    exact, found = extremes(at, z), extremes(t, y/release)
+    for i, what in [(0, "first trough"), (2, "first crest")]:
+        yield (f"time to the {what} over the radiation solution's",
+               found[i]/exact[i], "1 +- 10 %")
+        yield (f"{what} over release, % (radiation solution "
+               f"{100*exact[i + 1]:.1f})", 100*found[i + 1], "stated")
 
 
 # --- soil -----------------------------------------------------------------
@@ -343,13 +373,16 @@ CONTENTS = {
     **{f"columns{d}_h{h:g}": (lambda n, d=d, h=h: columns(n, d, h))
        for d, h in [(15, 0.01), (15, 0.005)]},
     **{f"addedMass_R{c}h": (lambda n, c=c: addedMass(n, c)) for c in [4, 8]},
+    **{f"addedMass_R{c}h_XAPIC": (lambda n, c=c: addedMass(n, c, "XAPIC"))
+       for c in [4, 8]},
     **{f"wedge{d}_h{h:g}{'_gravity' if g else ''}":
        (lambda n, d=d, h=h, g=g: wedge(n, d, h, g))
        for d in [20, 30, 45] for h, g in [(0.01, False), (0.01, True), (0.02, False)]},
-    **{f"floating{r:g}_h{h:g}": (lambda n, r=r, h=h: floating(n, r, h, 0))
+    **{f"floating{r:g}_h{h:g}": (lambda n, r=r, h=h: floating(n, r, h))
        for r in [0.05, 0.5] for h in [0.02, 0.01]},
-    **{f"heave_h{h:g}": (lambda n, h=h: floating(n, 0.5, h, 0.03))
-       for h in [0.02, 0.01]},
+    "quiet_h0.02": lambda n: quiet(n, 0.02),
+    **{f"heave_h{h:g}_{t}": (lambda n, h=h, t=t: heave(n, h, t))
+       for h in [0.02, 0.01] for t in ["APIC", "XAPIC"]},
 }
 
 
