@@ -94,3 +94,31 @@ def binghamGap(cells=16, model="BinghamPapanastasiou", m=10, water=None):
         regions={"gap": box((0, 0), (10, H))}, energy=False,
         control=ASCII).cyclic("x")
     return setup, exact, half**2/(mu/RHO)
+
+
+def binghamSlope(cells=8, yields=True, water=None):
+    """An endless layer of a Bingham liquid, 0.05 m deep, on a slope of 1:5,
+    mu 2 Pa s; the stress on its bed is 96 Pa, the yield stress half of that or
+    (yields no) 1.25 times as much. The setup, the velocity by height (free:
+    the largest without a yield stress) and the time to run"""
+    H, mu = 0.05, 2.0
+    g = np.array([G*0.2, -G, 0])/np.sqrt(1.04)
+    bed = RHO*g[0]*H
+    stress = bed/2 if yields else 1.25*bed
+
+    def exact(y):
+        shear = max(0, H - stress/(RHO*g[0]))
+        return RHO*g[0]/(2*mu)*(shear**2 - np.maximum(0, shear - y)**2)
+    exact.free = RHO*g[0]*H**2/(2*mu)
+
+    m = 10 if yields else 20
+    setup = Setup(
+        cells=(4, cells + 2), h=H/cells, points=3, g=tuple(g),
+        sides={"ymin": ("wall", "noSlip")}, energy=False,
+        fluid={"mu": mu, "soundSpeed": 7},
+        water={"viscosityModel": "BinghamPapanastasiou",
+               "BinghamPapanastasiouCoeffs": {"tau0": stress/RHO, "m": m},
+               **(water or {})},
+        regions={"layer": hydrostatic((0, 0), (10, H))},
+        control=ASCII).cyclic("x")
+    return setup, exact, 4*H**2/(mu/RHO) if yields else 0.3

@@ -23,13 +23,17 @@ SOUND = {"shear": lambda n: 10*n, "vortex": lambda n: 10*n,
          "jet": lambda n: 14*n/0.05, "poiseuille": lambda n: 10*n,
          "still": lambda n: 22.15*32, "dam": lambda n: 14*100, "sloshing": lambda n: 22.15*n}
 
+# cells: pressureQuadrature
 TRANSFERS = ["APIC 2c/h", "APIC c/h", "APIC 0.5c/h", "APIC 0.25c/h", "XAPIC",
-             "XPIC", "FLIP", "PIC"]
+             "XPIC", "FLIP", "PIC", "APIC 2c/h cells", "APIC 0.5c/h cells",
+             "APIC 0.25c/h cells", "XAPIC cells"]
 
 
 def water(transfer, sound):
     name, *rate = transfer.split()
     entries = {"transfer": name}
+    entries["pressureQuadrature"] = (
+        rate.pop() if rate[-1:] == ["cells"] else "points")
     if rate:
         entries["apicRate"] = float(rate[0][:-3] or 1)*sound
     return entries

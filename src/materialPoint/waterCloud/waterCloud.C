@@ -21,6 +21,49 @@ namespace mpm
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+namespace Foam
+{
+namespace mpm
+{
+    //- Warn of walls that hold the flow back over a cell
+    static void checkNoSlip
+    (
+        const volVectorField& U,
+        const weaklyCompressibleNewtonian& fluid,
+        const scalar h
+    )
+    {
+        // The viscous layer ends at y+ = 12; u* is 1/25 of the velocity
+        const scalar velocity = 0.1*fluid.soundSpeed();
+        const scalar layer = 300*fluid.mu()/fluid.rho0()/velocity;
+        if (layer > h) return;
+
+        DynamicList<word> patches;
+        forAll(U.boundaryField(), patchi)
+        {
+            const fvPatchVectorField& patch = U.boundaryField()[patchi];
+            const label nFaces = returnReduce(patch.size(), sumOp<label>());
+            if (patch.type() == "noSlip" && nFaces)
+            {
+                patches.append(patch.patch().name());
+            }
+        }
+        if (patches.empty()) return;
+
+        WarningInFunction
+            << U.name() << " is noSlip on the patches " << flatOutput(patches)
+            << "." << nl << "    At " << velocity
+            << " m/s, a tenth of the speed of sound, the viscous layer there"
+            << " would be " << layer << " m thick, and cells are " << h << " m:"
+            << nl << "    the wall holds the flow back over a cell, many times as"
+            << " much as friction does." << nl
+            << "    smoothWall and roughWall have the stress of the law of the"
+            << " wall, slip has none" << endl;
+    }
+}
+}
+
+
 void Foam::mpm::waterCloud::select()
 {
     if (settings_.coupled && turbulence_.valid() && turbulence_->needsWalls())
@@ -44,7 +87,23 @@ void Foam::mpm::waterCloud::select()
         turbulence_.valid() ? "XAPIC" : "APIC",
         settings_.coupled && !turbulence_.valid() ? coupledApicRate : apicRate
     );
+    // What eddies it would drive, others damp
+    cellQuadrature_ =
+        readChoiceOrDefault
+        (
+            dict_,
+            "pressureQuadrature",
+            transfer_->affine() && transfer_->filtered() ? "cells" : "points",
+            {"points", "cells"}
+        )
+     == "cells";
     makeKernels();
+
+    // A mud has a viscosity that only the flow knows
+    if (fluid_.viscous() && !viscosity_.valid())
+    {
+        checkNoSlip(U_, fluid_, grid_.cells().minSpacing());
+    }
 }
 
 
@@ -92,6 +151,35 @@ void Foam::mpm::waterCloud::findMaxViscosity()
     if (nut_ < 0) return;
     const scalar* nut = points_.column(nut_);
     for (label p = 0; p < size(); ++p) maxNut_ = max(maxNut_, nut[p]);
+}
+
+
+void Foam::mpm::waterCloud::addMeshMeans()
+{
+    for (const pointStorage::field& f : points_.fields())
+    {
+        const label power = f.name == "k" ? -2 : f.name == "epsilon" ? -3 : -1;
+        if (power == -1 && f.name != "nut") continue;
+
+        meshMeans_.emplace_back
+        (
+            f.first,
+            autoPtr<volScalarField>::New
+            (
+                IOobject
+                (
+                    f.name,
+                    mesh_.time().timeName(),
+                    mesh_,
+                    IOobject::NO_READ,
+                    IOobject::AUTO_WRITE
+                ),
+                mesh_,
+                dimensionedScalar(dimArea*pow(dimTime, power), Zero),
+                zeroGradientFvPatchScalarField::typeName
+            )
+        );
+    }
 }
 
 
@@ -443,6 +531,7 @@ Foam::mpm::waterCloud::waterCloud
     (
         readSwitchOrDefault(dict, "tensionCutOff", false) ? 0 : -VGREAT
     ),
+    cellQuadrature_(false),
     viscosity_(viscosityModel::New(dict, control.strictKeywords)),
     turbulence_
     (
@@ -476,7 +565,11 @@ Foam::mpm::waterCloud::waterCloud
     globalMinJ_(1)
 {
     // After nut: the columns lie side by side
-    if (nut_ >= 0) points_.add("shearRate", pointStorage::scalarValue);
+    if (nut_ >= 0)
+    {
+        addMeshMeans();
+        points_.add("shearRate", pointStorage::scalarValue);
+    }
     boundary_.setLiquid(fluid_.rho0(), fluid_.mu()/fluid_.rho0());
     if (!fluid_.autoSoundSpeed()) select();
 }
@@ -508,6 +601,7 @@ void Foam::mpm::waterCloud::checkDictionary
             "flipDampingRate",
             "corners",
             "tensionCutOff",
+            "pressureQuadrature",
             "viscosityModel",
             dict.lookupOrDefault<word>("viscosityModel", "Newtonian")
           + "Coeffs",
@@ -836,7 +930,25 @@ void Foam::mpm::waterCloud::energy
 
 bool Foam::mpm::waterCloud::writeMeshFields() const
 {
-    const bool ok = p_.write();
+    // Once there is a flow to speak of; the largest is the same on all ranks
+    static bool warned = false;
+    if
+    (
+        turbulence_.valid() && transfer_->affine() && !warned
+     && globalMaxNut_ > 0 && globalMaxNut_ < schemeViscosity()
+    )
+    {
+        warned = true;
+        WarningInFunction
+            << "cloud " << name() << ": the largest eddy viscosity, "
+            << globalMaxNut_ << " m2/s, is less than that of the scheme, "
+            << schemeViscosity() << " m2/s for eddies of 16 cells." << nl
+            << "    What turbulence would do is lost in it; less have transfer"
+            << " XAPIC, a lower soundSpeed and finer cells" << endl;
+    }
+
+    bool ok = p_.write();
+    for (const auto& [column, mean] : meshMeans_) ok = mean->write() && ok;
     return materialPointCloud::writeMeshFields() && ok;
 }
 
@@ -943,6 +1055,10 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
         );
     }
     table.add("  tension cut-off", minPressure_ == 0, "tensionCutOff");
+    table.add
+    (
+        "  pressure by cells", cellQuadrature_, "pressureQuadrature cells"
+    );
     table.add
     (
         "  shear-rate viscosity", viscosity_.valid(),

@@ -7,6 +7,7 @@ License
 #include "waterMaterial.H"
 #include "waterCloud.H"
 #include "cloudKernelsFor.H"
+#include "cellQuadrature.H"
 
 namespace Foam
 {
@@ -35,6 +36,12 @@ class waterKernelsFor
 
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
+
+    //- With pressureQuadrature cells; else empty
+    cellQuadrature<Shape, dim> cells_;
+
+    //- Saturation without bodies, if there are any, for that
+    std::vector<scalar> waterSaturation_;
 
 
     template<bool eddy = false>
@@ -112,6 +119,7 @@ class waterKernelsFor
         );
         if (c.bodies_)
         {
+            if (c.cellQuadrature_) waterSaturation_ = S;
             c.addBodySaturation(inversePoreVolume);
         }
         forNeighbourhoods
@@ -194,6 +202,98 @@ class waterKernelsFor
         for (const auto& point : cloud_.held_) J[point.first] = point.second;
     }
 
+    //- Let the mean pressure of full cells act by exact integrals
+    void integrateCells()
+    {
+        waterCloud& c = cloud_;
+        const std::vector<scalar>& S = c.nodes_.saturation;
+        cells_.findFull
+        (
+            c.boundary_,
+            c.mesh_.nCells(),
+            [&](const label i)
+            {
+                return
+                    S[i] > waterCloud::insideSaturation
+                 && !(c.coupling_ && c.coupling_->mixed[i])
+                 && !(c.bodies_ && S[i] != waterSaturation_[i]);
+            }
+        );
+        if (!cells_.any()) return;
+
+        const pointView<dim> points(c.view<dim>());
+        const label* cell = c.points_.cell();
+        const waterMaterial<dim> m(makeMaterial(0));
+        cells_.findPressures
+        (
+            c.grid_.nBoxNodes(),
+            c.size(),
+            cell,
+            points.mass,
+            m.J,
+            [&](const scalar J)
+            {
+                return max(c.fluid_.pressure(J), c.minPressure_);
+            }
+        );
+        kernels_.stressesToGrid
+        (
+            points,
+            [&](const label p, lanes (&flux)[dim][dim])
+            {
+                const lanes pV =
+                    -m.volume(p)*cells_.ofPoints(p, cell, c.size());
+                for (int d = 0; d < dim; ++d) flux[d][d] = pV;
+            },
+            c.nodes_
+        );
+        cells_.addForces(c.boundary_, c.nodes_);
+    }
+
+    //- Mean of a scalar of the points by mass, on the mesh
+    void meanOnMesh(const scalar* values, volScalarField& mean)
+    {
+        waterCloud& c = cloud_;
+        nodeField<nodeVector>& sum = c.nodes_.force;
+
+        this->sumToNodes(makeMaterial(0));
+        const pointView<dim> points(c.view<dim>());
+        kernels_.scalarsToGrid
+        (
+            points,
+            [&](const label p, lanes& weighted, lanes& weight)
+            {
+                weight = loadLanes(points.mass + p);
+                weighted = weight*loadLanes(values + p);
+            },
+            sum
+        );
+        c.grid_.exchange().sum(sum);
+
+        mean.primitiveFieldRef() = 0;
+        this->cellMeans
+        (
+            [&](const label i) { return volume(i); },
+            [&]
+            (
+                const label celli,
+                const label n,
+                const label* node,
+                const scalar* weight
+            )
+            {
+                scalar weighted = 0, mass = 0;
+                for (label t = 0; t < n; ++t)
+                {
+                    weighted += weight[t]*sum[node[t]][0];
+                    mass += weight[t]*sum[node[t]][1];
+                }
+                if (mass > 0) mean[celli] = weighted/mass;
+            }
+        );
+        mean.correctBoundaryConditions();
+    }
+
     //- Stress of the points, with or without a viscosity of their own
     template<bool eddy>
     void stressOfPoints(const scalar deltaT)
@@ -256,6 +356,7 @@ public:
         hold();
         if (c.nut_ >= 0) stressOfPoints<true>(deltaT);
         else stressOfPoints<false>(deltaT);
+        if (c.cellQuadrature_) integrateCells();
         release();
         c.addOutletLoads();
 
@@ -440,6 +541,11 @@ public:
     virtual void updateMeshFields()
     {
         waterCloud& c = cloud_;
+        for (auto& [column, mean] : c.meshMeans_)
+        {
+            meanOnMesh(c.points_.column(column), *mean);
+        }
+
         nodeField<nodeVector>& pressure = c.nodes_.force;
         const waterMaterial<dim> m(makeMaterial(0));
 

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""The hard cases of the specification, at the sizes of the tests, with each
+model of turbulence and of viscosity: do they hold to the same bounds?
+
+    ./hardModels.py [--list] [name or pattern ...]     # 'kEpsilon *'
+
+Writes results/hardModels.csv, a row for each figure that a bound is on; a run
+whose rows are there is not made again.
+"""
+
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+REPOSITORY = HERE.parents[1]
+for place in ["etc/python", "test", "test/cases"]:
+    sys.path.insert(0, str(REPOSITORY/place))
+
+from conftest import Figures  # noqa: E402
+from hardCases import HARD, ElementTest  # noqa: E402
+from mpmfoam import figureTable  # noqa: E402
+
+# Name -> entries of the cloud water, and what slip walls become
+MODELS = {
+    "XAPIC": ({"transfer": "XAPIC"}, None),
+    "kEpsilon": ({"turbulence": "kEpsilon", "kEpsilonCoeffs": {
+        "k": 1e-3, "epsilon": 1e-3}}, {"type": "roughWall", "ks": 1e-3}),
+    "Smagorinsky": ({"turbulence": "Smagorinsky"}, {"type": "smoothWall"}),
+    "BinghamPapanastasiou": ({
+        "viscosityModel": "BinghamPapanastasiou",
+        "BinghamPapanastasiouCoeffs": {"tau0": 1e-3, "m": 1}}, None),
+    "HerschelBulkley": ({
+        "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
+            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 1e-2}}, None)}
+
+
+class Bounds(Figures):
+    """What a case compares, kept"""
+
+    def __init__(self, name):
+        super().__init__(name)
+        self.rows = []
+
+    def _add(self, name, value, relation, bound, good, listed=False):
+        super()._add(name, value, relation, bound, good, listed)
+        try:
+            value = float(value)
+        except (TypeError, ValueError):
+            value = float(good)
+        self.rows.append((name, value, f"{relation} {bound}", bool(good)))
+
+
+def applies(name):
+    """Has it water, and a choice of walls and of models of its own?"""
+    setup = HARD[name].setup(**HARD[name].quick)
+    return not isinstance(setup, ElementTest) and "water" in setup.clouds
+
+
+def run(model, name):
+    hard = HARD[name]
+    water, wall = MODELS[model]
+    setup = hard.setup(**hard.quick)
+    setup.water = {**setup.water, **water}
+    if wall and setup.wall == "slip":
+        setup.wall = wall
+    bounds = Bounds(name)
+    path = Path(tempfile.mkdtemp(prefix="hardModels."))
+    try:
+        case = setup.write(path/"case")
+        hard.start(case)
+        hard.bounds(bounds, case)
+    except AssertionError as error:
+        reason = " ".join(str(error).split())
+        bounds.rows.append(("runs to its end", 0, reason[-300:], False))
+    finally:
+        shutil.rmtree(path, ignore_errors=True)
+    return bounds.rows
+
+
+RUNS = {f"{model} {name}": (lambda _, model=model, name=name: run(model, name))
+        for model in MODELS for name in HARD if applies(name)}
+
+
+if __name__ == "__main__":
+    figureTable.main(
+        __doc__, HERE, HERE/"results"/"hardModels.csv", RUNS)
