@@ -217,6 +217,7 @@ def pairs(setup, rows):
 
 def effectRows():
     """Name, with the effect, without it"""
+    points = {"transfer": "XAPIC", "pressureQuadrature": "points"}
     rows = pairs(tank(), [
         ("viscous stress", {}, {"fluid": {"mu": 0}}),
         ("pressure smoothing", {}, {"mpm": {"smoothing": False}}),
@@ -225,12 +226,26 @@ def effectRows():
         ("APIC for FLIP", {}, {"water": {"transfer": "FLIP"}}),
         ("XPIC for FLIP", {"water": {"transfer": "XPIC"}},
          {"water": {"transfer": "FLIP"}}),
+        ("XAPIC for APIC", {"water": points}, {}),
+        ("pressure by cells for points", {"water": {"transfer": "XAPIC"}},
+         {"water": points}),
+        ("BinghamPapanastasiou", {"water": {
+            "viscosityModel": "BinghamPapanastasiou",
+            "BinghamPapanastasiouCoeffs": {"tau0": 1e-4, "m": 1}}}, {}),
+        ("Smagorinsky", {"water": {**points, "turbulence": "Smagorinsky"}},
+         {"water": points}),
+        ("kEpsilon", {"water": {
+            **points, "turbulence": "kEpsilon",
+            "kEpsilonCoeffs": {"k": 1e-3, "epsilon": 1e-3}}},
+         {"water": points}),
         ("energy, each 10 steps", {"functions": functions(10, energy=True)},
          {}),
         ("front, gauge, balance, each 10", {"functions": functions(10)}, {}),
         ("probes of p, each 10", {"functions": probes(10)}, {}),
         ("log, each 10", {"mpm": {"logInterval": 10}}, {})])
     rows.append(("inlet and outlet", channel(), channel(open_=False)))
+    rows.append(("roughWall for slip",
+                 tank(wall={"type": "roughWall", "ks": 1e-3}), tank()))
     rows += [
         ("linearElastic for rigidSkeleton", column("linearElastic"),
          column("rigidSkeleton")),
