@@ -18,9 +18,12 @@ REPOSITORY = HERE.parents[1]
 for place in ["etc/python", "test", "test/cases"]:
     sys.path.insert(0, str(REPOSITORY/place))
 
+import caseBuilder  # noqa: E402
 from conftest import Figures  # noqa: E402
 from hardCases import HARD, ElementTest  # noqa: E402
 from mpmfoam import figureTable  # noqa: E402
+
+caseBuilder.TIMEOUT = 7200
 
 # Name -> entries of the cloud water, and what slip walls become
 MODELS = {

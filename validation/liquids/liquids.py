@@ -22,11 +22,13 @@ REPOSITORY = HERE.parents[1]
 for place in ["etc/python", "test", "test/cases"]:
     sys.path.insert(0, str(REPOSITORY/place))
 
+import caseBuilder  # noqa: E402
 from caseBuilder import G, RHO, Setup, box, hydrostatic  # noqa: E402
 from liquids import (  # noqa: E402
     KAPPA, Channel, binghamGap, binghamSlope, setField)
 from mpmfoam import figureTable  # noqa: E402
 
+caseBuilder.TIMEOUT = 7200
 TIMES = 5                       # H/u*
 START = {"k": 8e-3, "epsilon": 3e-3}
 

@@ -92,6 +92,15 @@ SENSITIVITY = {
                            "frictional; frictionCoefficient 0.7"),
     "floorSlip": walls("soil", ["floor"], "slip"),
     "waterNoSlip": walls("water", ["base", "floor", "block"], "noSlip"),
+    **{name: {PROPERTIES: {f"water/{key}": value for key, value in water},
+              **walls("water", ["base", "floor", "block", "backWall"],
+                      "roughWall; ks 0.85e-3")}
+       for name, water in [
+           ("waterRoughWall", []),
+           ("waterRoughWallXAPIC", [("transfer", "XAPIC")]),
+           ("waterkEpsilon", [
+               ("turbulence", "kEpsilon"),
+               ("kEpsilonCoeffs", "{k 1e-3; epsilon 1e-3;}")])]},
     "soilCornersSlip": {PROPERTIES: {"soil/corners": "slip"}},
     "waterCornersStick": {PROPERTIES: {"water/corners": "stick"}},
     "nsC0.3": model(nsC=0.3), "nsC0.5": model(nsC=0.5),

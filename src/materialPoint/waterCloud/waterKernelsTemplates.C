@@ -202,8 +202,8 @@ class waterKernelsFor
         for (const auto& point : cloud_.held_) J[point.first] = point.second;
     }
 
-    //- Let the mean pressure of full cells act by exact integrals
-    void integrateCells()
+    //- Full cells and their pressures
+    void findCellPressures()
     {
         waterCloud& c = cloud_;
         const std::vector<scalar>& S = c.nodes_.saturation;
@@ -219,35 +219,18 @@ class waterKernelsFor
                  && !(c.bodies_ && S[i] != waterSaturation_[i]);
             }
         );
-        if (!cells_.any()) return;
-
-        const pointView<dim> points(c.view<dim>());
-        const label* cell = c.points_.cell();
-        const waterMaterial<dim> m(makeMaterial(0));
         cells_.findPressures
         (
             c.grid_.nBoxNodes(),
             c.size(),
-            cell,
-            points.mass,
-            m.J,
+            c.points_.cell(),
+            c.points_.column(c.mass_),
+            c.J(),
             [&](const scalar J)
             {
                 return max(c.fluid_.pressure(J), c.minPressure_);
             }
         );
-        kernels_.stressesToGrid
-        (
-            points,
-            [&](const label p, lanes (&flux)[dim][dim])
-            {
-                const lanes pV =
-                    -m.volume(p)*cells_.ofPoints(p, cell, c.size());
-                for (int d = 0; d < dim; ++d) flux[d][d] = pV;
-            },
-            c.nodes_
-        );
-        cells_.addForces(c.boundary_, c.nodes_);
     }
 
     //- Mean of a scalar of the points by mass, on the mesh
@@ -300,6 +283,11 @@ class waterKernelsFor
     {
         waterCloud& c = cloud_;
         waterMaterial<dim, eddy> m(makeMaterial<eddy>(deltaT));
+        if (c.cellQuadrature_)
+        {
+            m.cellPressure = cells_.pressures();
+            m.cell = c.points_.cell();
+        }
         kernels_.updateStress
         (
             c.view<dim>(), m, 1 - c.transfer_->picFraction(deltaT), c.nodes_,
@@ -353,11 +341,16 @@ public:
         }
 
         c.startCost("stress and forces");
+        if (c.cellQuadrature_) findCellPressures();
         hold();
         if (c.nut_ >= 0) stressOfPoints<true>(deltaT);
         else stressOfPoints<false>(deltaT);
-        if (c.cellQuadrature_) integrateCells();
         release();
+        if (c.cellQuadrature_)
+        {
+            c.stressWork_ -=
+                deltaT*cells_.addForces(c.boundary_, c.nodes_);
+        }
         c.addOutletLoads();
 
         this->exchangeForces();
