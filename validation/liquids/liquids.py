@@ -185,13 +185,17 @@ def damBreak(path, ks, h=0.01, turbulence="kEpsilon"):
         regions={"reservoir": hydrostatic((0, 0), (dam, h0))})
     case = setup.until(end, end/4).write(path).prepare()
     case.solve()
+    # The speed: how long the front takes to form is not in the theory
     rows = []
-    for time in case.times[2:]:
-        t = float(time)
-        x = case.points(time).x[:, 0]
-        theory = tip(t, h0, ks) if ks else 2*np.sqrt(G*h0)*t
-        rows.append((f"front from the dam over theory's at {t:g} s",
-                     (np.quantile(x, 0.9995) - dam)/theory, "1 +- 5 %"))
+    times = [float(t) for t in case.times]
+    fronts = [np.quantile(case.points(t).x[:, 0], 0.9995) for t in case.times]
+    for i in range(2, len(times) - 1):
+        there = [tip(t, h0, ks) if ks else 2*np.sqrt(G*h0)*t
+                 for t in times[i:i + 2]]
+        rows.append((
+            f"speed of the front over theory's, {times[i]:g} to "
+            f"{times[i + 1]:g} s", (fronts[i + 1] - fronts[i])/(
+                there[1] - there[0]), "1 +- 5 %"))
     return rows
 
 
