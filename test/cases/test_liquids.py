@@ -1,6 +1,8 @@
 """Wall stress, turbulence, liquids with a yield stress. Bounds are those of
 issue 22 where nothing else is said."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -47,6 +49,13 @@ def testPositive(tmp_path, figures):
         least = min(case.case.cloudField(t, "water", name).min()
                     for t in case.times[1:])
         figures.atLeast(f"smallest {name}", float(least), 0)
+        # Means of the points by mass
+        points = case.case.cloudField(case.times[-1], "water", name)
+        mesh = case.case.field(case.times[-1], name)
+        figures.atMost(f"{name} on the mesh, largest over the points'",
+                       float(mesh.max()/points.max()), 1)
+        figures.atLeast(f"{name} on the mesh, smallest where there is water",
+                        float(mesh[mesh != 0].min()/points.min()), 1 - 1e-9)
     e = case.energies()["total"]
     figures.atMost("growth of the energy over its initial value", float(
         (e - np.minimum.accumulate(e)).max()/e[0]), 1e-3)
@@ -116,6 +125,27 @@ def testYieldStressHoldsAColumn(tmp_path, figures):
                BinghamPapanastasiouCoeffs={"tau0": 0.4, "m": 0.5})
     figures.atLeast("front without a yield stress [m]", float(free), 2e-3)
     figures.atMost("front with it [m]", float(held), 5e-4)
+
+
+@pytest.mark.parametrize("mu, wall, warned", [
+    (1e-3, "noSlip", True), (1e-3, "slip", False), (100, "noSlip", False)])
+def testNoSlipIsNamed(tmp_path, figures, mu, wall, warned):
+    case = damBreak(wall=wall, fluid={"mu": mu}, energy=False).steps(1).write(
+        tmp_path/"case").prepare()
+    found = re.search(
+        r"U.water is noSlip on the patches walls\.", case.solve().text)
+    figures.equal("warning", found is not None, warned)
+
+
+def testEddiesWeakerThanTheScheme(tmp_path, figures):
+    """With APIC at 2 c/h"""
+    water = {**KEPSILON, "transfer": "APIC",
+             "kEpsilonCoeffs": {"k": 1e-6, "epsilon": 1e-3}}
+    text = damBreak(points=2, water=water).until(0.02).write(
+        tmp_path/"case").prepare().solve().text
+    figures.equal("warnings", len(re.findall(
+        r"the largest eddy viscosity, \S+ m2/s, is less than that of the "
+        r"scheme", text)), 1)
 
 
 def wallCase(wall, **entries):

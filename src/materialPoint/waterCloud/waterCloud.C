@@ -38,21 +38,21 @@ namespace mpm
         const scalar layer = 300*fluid.mu()/fluid.rho0()/velocity;
         if (layer > h) return;
 
-        DynamicList<word> patches;
+        string patches;
         forAll(U.boundaryField(), patchi)
         {
             const fvPatchVectorField& patch = U.boundaryField()[patchi];
             const label nFaces = returnReduce(patch.size(), sumOp<label>());
             if (patch.type() == "noSlip" && nFaces)
             {
-                patches.append(patch.patch().name());
+                patches += ' ' + patch.patch().name();
             }
         }
         if (patches.empty()) return;
 
         WarningInFunction
-            << U.name() << " is noSlip on the patches " << flatOutput(patches)
-            << "." << nl << "    At " << velocity
+            << U.name() << " is noSlip on the patches" << patches.c_str() << "."
+            << nl << "    At " << velocity
             << " m/s, a tenth of the speed of sound, the viscous layer there"
             << " would be " << layer << " m thick, and cells are " << h << " m:"
             << nl << "    the wall holds the flow back over a cell, many times as"
@@ -492,6 +492,23 @@ void Foam::mpm::waterCloud::derivedFields
     HashTable<tmp<scalarField>>& fields
 ) const
 {
+    // Once there is a flow to speak of; the largest is the same on all ranks
+    static bool warned = false;
+    if
+    (
+        turbulence_.valid() && transfer_->affine() && !warned
+     && globalMaxNut_ > 0 && globalMaxNut_ < schemeViscosity()
+    )
+    {
+        warned = true;
+        WarningInFunction
+            << "cloud " << name() << ": the largest eddy viscosity, "
+            << globalMaxNut_ << " m2/s, is less than that of the scheme, "
+            << schemeViscosity() << " m2/s for eddies of 16 cells." << nl
+            << "    What turbulence would do is lost in it; less have transfer"
+            << " XAPIC, a lower soundSpeed and finer cells" << endl;
+    }
+
     tmp<scalarField> p(new scalarField(size()));
     tmp<scalarField> rho(new scalarField(size()));
     for (label i = 0; i < size(); ++i)
@@ -930,23 +947,6 @@ void Foam::mpm::waterCloud::energy
 
 bool Foam::mpm::waterCloud::writeMeshFields() const
 {
-    // Once there is a flow to speak of; the largest is the same on all ranks
-    static bool warned = false;
-    if
-    (
-        turbulence_.valid() && transfer_->affine() && !warned
-     && globalMaxNut_ > 0 && globalMaxNut_ < schemeViscosity()
-    )
-    {
-        warned = true;
-        WarningInFunction
-            << "cloud " << name() << ": the largest eddy viscosity, "
-            << globalMaxNut_ << " m2/s, is less than that of the scheme, "
-            << schemeViscosity() << " m2/s for eddies of 16 cells." << nl
-            << "    What turbulence would do is lost in it; less have transfer"
-            << " XAPIC, a lower soundSpeed and finer cells" << endl;
-    }
-
     bool ok = p_.write();
     for (const auto& [column, mean] : meshMeans_) ok = mean->write() && ok;
     return materialPointCloud::writeMeshFields() && ok;

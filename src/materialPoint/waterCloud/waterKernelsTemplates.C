@@ -207,18 +207,33 @@ class waterKernelsFor
     {
         waterCloud& c = cloud_;
         const std::vector<scalar>& S = c.nodes_.saturation;
-        cells_.findFull
-        (
-            c.boundary_,
-            c.mesh_.nCells(),
-            [&](const label i)
-            {
-                return
-                    S[i] > waterCloud::insideSaturation
-                 && !(c.coupling_ && c.coupling_->mixed[i])
-                 && !(c.bodies_ && S[i] != waterSaturation_[i]);
-            }
-        );
+        auto find = [&](const auto& inside)
+        {
+            cells_.findFull
+            (
+                c.boundary_,
+                c.mesh_.nCells(),
+                S,
+                waterCloud::insideSaturation,
+                inside
+            );
+        };
+        if (c.coupling_ || c.bodies_)
+        {
+            find
+            (
+                [&](const label i)
+                {
+                    return
+                        !(c.coupling_ && c.coupling_->mixed[i])
+                     && !(c.bodies_ && S[i] != waterSaturation_[i]);
+                }
+            );
+        }
+        else
+        {
+            find([](const label) { return true; });
+        }
         cells_.findPressures
         (
             c.grid_.nBoxNodes(),
