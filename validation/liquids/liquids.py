@@ -158,7 +158,7 @@ def tip(t, h0, ks, nu=1e-6):
         uStar = KAPPA*U/mean
         length = np.cumsum(G*h/uStar**2)*(h[1] - h[0])
         volume = length[-1]*h1 - np.sum(length)*(h[1] - h[0])
-        return length[-1], h1*length[-1] - volume
+        return length[-1], volume
 
     low, high = 0.5*c0, 2*c0
     for _ in range(60):
