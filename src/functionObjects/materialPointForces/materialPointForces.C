@@ -178,6 +178,7 @@ void Foam::mpm::materialPointForces::openOthers()
             (beginFile("pressure_" + sets_[i].name(), first));
         OFstream& os = osPtr();
         const pointField x(sets_[i].positions());
+        os  << setw(0);
         forAll(x, k) os << "# Probe " << k << ' ' << x[k] << nl;
         os  << "# Time";
         forAll(x, k) os << tab << k;

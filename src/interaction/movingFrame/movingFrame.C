@@ -7,6 +7,7 @@ License
 #include "materialPointCloud.H"
 #include "nodeBoundary.H"
 #include "nodeFolding.H"
+#include "reachWeights.H"
 #include "dictionaryEntries.H"
 #include "quaternion.H"
 #include "timeFunction.H"
@@ -189,7 +190,6 @@ void Foam::mpm::movingFrame::addForces(materialPointCloud& cloud) const
         const label cell = cloud.points().cell()[p];
         const index3 lower = grid.coordinate(cell);
         scalar w[3][4] = {};
-        vector v(Zero);
         for (label d = 0; d < nDim; ++d)
         {
             const scalar f =
@@ -197,8 +197,42 @@ void Foam::mpm::movingFrame::addForces(materialPointCloud& cloud) const
               - (lower[d] + grid.lower(d));
             scalar unused[4];
             reachWeights(grid, f, w[d], unused);
-            v[cells.axis(d)] = cloud.v(d)[p];
         }
+        auto weightOf = [&](const label t)
+        {
+            const scalar inPlane = w[0][t % T]*w[1][(t/T) % T];
+            return nDim == 3 ? inPlane*w[2][t/(T*T)] : inPlane;
+        };
+        const label s = folding.stencil(cell);
+        const label first = cell + grid.reachOffset();
+
+        // The velocity of the grid: within a step points may have another one
+        nodeVector ofGrid{};
+        for (label t = 0; t < grid.reachSize(); ++t)
+        {
+            const scalar weight = weightOf(t);
+            if (weight == 0) continue;
+            if (s < 0)
+            {
+                ofGrid += weight*nodes.velocity[first + grid.reachNode(t)];
+                continue;
+            }
+            const nodeVector& image = nodes.velocity[folding.targets(s)[t]];
+            const label* walls = folding.walls(s);
+            if (walls && walls[t] >= 0)
+            {
+                const nodeVector& factor = folding.wallFactors(s)[t];
+                ofGrid += weight*factor
+                   *(nodes.velocity[walls[t]] - 0.5*image);
+            }
+            else
+            {
+                ofGrid += weight
+                   *(folding.signs(s)[t]*image + folding.shifts(s)[t]);
+            }
+        }
+        vector v(Zero);
+        for (label d = 0; d < nDim; ++d) v[cells.axis(d)] = ofGrid[d];
         const vector a
         (
             cloud.mass()[p]*(this->force(cloud.position(p)) + deflection(v))
@@ -206,16 +240,14 @@ void Foam::mpm::movingFrame::addForces(materialPointCloud& cloud) const
         nodeVector ofPoint{};
         for (label d = 0; d < nDim; ++d) ofPoint[d] = a[cells.axis(d)];
 
-        const label s = folding.stencil(cell);
         for (label t = 0; t < grid.reachSize(); ++t)
         {
-            scalar weight = w[0][t % T]*w[1][(t/T) % T];
-            if (nDim == 3) weight *= w[2][t/(T*T)];
+            const scalar weight = weightOf(t);
             if (weight == 0) continue;
-            nodeVector f = weight*ofPoint;
+            const nodeVector f = weight*ofPoint;
             if (s < 0)
             {
-                force[cell + grid.reachOffset() + grid.reachNode(t)] += f;
+                force[first + grid.reachNode(t)] += f;
                 continue;
             }
 
