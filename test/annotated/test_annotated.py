@@ -18,6 +18,7 @@ EXPLAINED_IN = {
     "src/interaction/dragModel": "materialPointProperties",
     "src/interaction/bedLoadModel": "materialPointProperties",
     "src/interaction/erosionCriterion": "controlDict",
+    "src/interaction/movingFrame": "materialPointProperties",
     "src/interaction/phasePair": "materialPointProperties",
     "src/interaction/relaxationZone": "materialPointProperties",
     "src/interaction/waterSoilInteraction": "materialPointProperties",

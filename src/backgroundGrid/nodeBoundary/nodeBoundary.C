@@ -106,23 +106,12 @@ void Foam::mpm::nodeBoundary::rebuild
     constraints_.clear();
     inflows_.clear();
 
-    labelList zoneOfCell;
-    if (inlets.size())
-    {
-        zoneOfCell.setSize(grid_.mesh().nCells(), -1);
-        for (size_t i = 0; i < inlets.size(); ++i)
-        {
-            for (const label celli : inlets[i]->meshCells())
-            {
-                zoneOfCell[celli] = label(i);
-            }
-        }
-    }
+    inlets_ = inlets;
+    kind_ = makeWalls();
+    nodeWalls_ = kind_.found(cellSides::nodeWall);
 
-    const List<cellSides::kind> kind(makeWalls());
-    nodeWalls_ = kind.found(cellSides::nodeWall);
-
-    const cellSides sides(grid_, U_, kind, zoneOfCell);
+    const labelList zones(zoneOfCell());
+    const cellSides sides(grid_, U_, kind_, zones);
     const wallNodes walls(grid_, sides);
     beyondOpening_ = sides.beyondOpenings();
     folding_.reset(new nodeFolding(grid_, sides, nodeWalls_));
@@ -138,10 +127,109 @@ void Foam::mpm::nodeBoundary::rebuild
     for (nodeConstraint& c : constraints_) c.build(walls);
     activate(bitSet(grid_.nNodes(), true));
 
-    tiles_.reset(new nodeTiles(*folding_, zoneOfCell));
+    tiles_.reset(new nodeTiles(*folding_, zones));
     findControlVolumes();
     setLiquid(rho_, nu_);
     for (nodeConstraint* c : further_) c->place();
+    if (recorded_) record();
+}
+
+
+Foam::labelList Foam::mpm::nodeBoundary::zoneOfCell() const
+{
+    labelList zones;
+    if (inlets_.empty()) return zones;
+
+    zones.setSize(grid_.mesh().nCells(), -1);
+    for (size_t i = 0; i < inlets_.size(); ++i)
+    {
+        for (const label celli : inlets_[i]->meshCells())
+        {
+            zones[celli] = label(i);
+        }
+    }
+    return zones;
+}
+
+
+void Foam::mpm::nodeBoundary::record()
+{
+    recorded_ = true;
+    const cellSides sides(grid_, U_, kind_, zoneOfCell());
+    shares_.reset(new wallShares(wallNodes(grid_, sides), kind_));
+    folding_->record(sides, *shares_);
+}
+
+
+Foam::List<Foam::mpm::nodeConstraint::load> Foam::mpm::nodeBoundary::loads
+(
+    const nodeMotion& nodes,
+    const scalar deltaT,
+    const scalar projected
+) const
+{
+    const wallShares& shares = *shares_;
+    List<nodeConstraint::load> loads(shares.nPatches());
+    for (const nodeConstraint& c : constraints_)
+    {
+        c.take(nodes, deltaT, projected, shares, loads);
+    }
+
+    // And through ghost nodes, whose points are all of this rank
+    const nodeMotion::mirrorSums& m = nodes.mirrored;
+    for (size_t i = 0; i < folding_->slots().size(); ++i)
+    {
+        const nodeFolding::mirrorSlot& slot = folding_->slots()[i];
+        const nodeVector& old = nodes.oldVelocity[slot.image];
+        const nodeVector f = m.force[i]
+          + m.mass[i]*(nodes.velocity[slot.image] - old)/deltaT
+          + projected/deltaT*(m.momentum[i] + m.mass[i]*old);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            const label side = slot.wallSide[d];
+            if (side < 0) continue;
+            nodeConstraint::give
+            (
+                grid_, slot.wallNode[d], side, d, f[d],
+                [&](const label patch)
+                {
+                    return
+                        side/2 == d
+                     || shares.kind(patch) == cellSides::fixedWall;
+                },
+                shares, loads
+            );
+        }
+    }
+
+    // Patches of processors come last
+    const label nPatches = returnReduce(loads.size(), minOp<label>());
+    loads.setSize(nPatches);
+    scalarList values;
+    values.setSize(12*nPatches);
+    forAll(loads, i)
+    {
+        for (direction d = 0; d < 3; ++d)
+        {
+            values[12*i + d] = loads[i].force[d];
+            values[12*i + 3 + d] = loads[i].moment[d];
+            values[12*i + 6 + d] = loads[i].friction[d];
+            values[12*i + 9 + d] = loads[i].frictionMoment[d];
+        }
+    }
+    Pstream::listCombineGather(values, plusEqOp<scalar>());
+    Pstream::listCombineScatter(values);
+    forAll(loads, i)
+    {
+        for (direction d = 0; d < 3; ++d)
+        {
+            loads[i].force[d] = values[12*i + d];
+            loads[i].moment[d] = values[12*i + 3 + d];
+            loads[i].friction[d] = values[12*i + 6 + d];
+            loads[i].frictionMoment[d] = values[12*i + 9 + d];
+        }
+    }
+    return loads;
 }
 
 
@@ -273,7 +361,8 @@ size_t Foam::mpm::nodeBoundary::memory() const
 {
     return
         folding_->memory() + tiles_->memory()
-      + sizeof(scalar)*inverseVolume_.size();
+      + sizeof(scalar)*inverseVolume_.size()
+      + (shares_.valid() ? shares_->memory() : 0);
 }
 
 // ************************************************************************* //

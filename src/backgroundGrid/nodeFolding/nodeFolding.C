@@ -4,9 +4,11 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "nodeFolding.H"
-#include "cellSides.H"
+#include "wallShares.H"
 #include "debug.H"
 #include "registerSwitch.H"
+#include <array>
+#include <map>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -101,6 +103,7 @@ bool Foam::mpm::nodeFolding::foldNode
 
     f.sign = ones();
     f.shift = nodeVector{};
+    for (label& side : f.takenBy) side = -1;
 
     // Direction and side of a wall that mirrors about its nodes; in the edge of
     // two of them the other one is as slip
@@ -128,17 +131,20 @@ bool Foam::mpm::nodeFolding::foldNode
             {
                 f.sign[k] = -f.sign[k];
                 f.shift[k] = 2*wall[k] - f.shift[k];
+                f.takenBy[k] = side;
             }
         }
         else
         {
             f.sign[d] = -f.sign[d];
             f.shift[d] = -f.shift[d];
+            f.takenBy[d] = side;
         }
         s[d] = 0;
         folds = true;
     }
     folds = foldCorner(cell, o, s) || folds;
+    f.image = o;
 
     f.target = cell;
     for (label d = 0; d < nDim; ++d) f.target += o[d]*grid_.stride(d);
@@ -280,6 +286,68 @@ std::vector<Foam::scalar> Foam::mpm::nodeFolding::volumes() const
 }
 
 
+void Foam::mpm::nodeFolding::record
+(
+    const cellSides& sides,
+    const wallShares& shares
+)
+{
+    const label nDim = grid_.nDim();
+    slot_.assign(target_.size(), -1);
+    slots_.clear();
+
+    // Image, and node and side of the wall by component
+    std::map<std::array<label, 7>, label> known;
+    fold f;
+    for (label celli = 0; celli < grid_.mesh().nCells(); ++celli)
+    {
+        const label cell = grid_.boxCell(celli);
+        const label s = stencil(cell);
+        for (label t = 0; s >= 0 && t < grid_.reachSize(); ++t)
+        {
+            foldNode(sides, celli, t, f);
+            std::array<label, 7> key;
+            key.fill(-1);
+            key[0] = f.target;
+            bool any = false;
+            for (label d = 0; d < nDim; ++d)
+            {
+                const label side = f.takenBy[d];
+                if (side < 0) continue;
+                any = true;
+
+                // The image on the wall, or where that ends the nearest corner
+                // of the cell
+                label node = cell, corner = cell;
+                for (label k = 0; k < nDim; ++k)
+                {
+                    const label o = k == side/2 ? side % 2 : f.image[k];
+                    node += o*grid_.stride(k);
+                    corner += max(label(0), min(label(1), o))*grid_.stride(k);
+                }
+                key[1 + d] = shares.found(node, side) ? node : corner;
+                key[4 + d] = side;
+            }
+            if (!any) continue;
+
+            const auto added = known.emplace(key, label(slots_.size()));
+            if (added.second)
+            {
+                slots_.push_back
+                (
+                    mirrorSlot
+                    {
+                        key[0], {key[1], key[2], key[3]},
+                        {key[4], key[5], key[6]}
+                    }
+                );
+            }
+            slot_[size_t(s)*grid_.reachSize() + t] = added.first->second;
+        }
+    }
+}
+
+
 void Foam::mpm::nodeFolding::keepWalls(const bitSet& nodes)
 {
     for (label& wall : wall_)
@@ -335,8 +403,9 @@ size_t Foam::mpm::nodeFolding::memory() const
         sizeof(label)
        *(
             stencilIndex_.size() + target_.size() + ghost_.size()
-          + wall_.size()
+          + wall_.size() + slot_.size()
         )
+      + sizeof(mirrorSlot)*slots_.size()
       + sizeof(nodeVector)
        *(sign_.size() + shift_.size() + wallFactor_.size());
 }

@@ -190,15 +190,17 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
         }
         v[k] -= lost/mass_[k];
         if (magSqr(lost) > 0) held_.set(k);
+        const vector arm(node.x - bodies_[node.body].motion().centre());
+        const vector tangential(lost - (node.n & lost)*node.n);
         impulse_[node.body].force += lost;
-        impulse_[node.body].moment +=
-            (node.x - bodies_[node.body].motion().centre()) ^ lost;
+        impulse_[node.body].moment += arm ^ lost;
+        impulse_[node.body].friction += tangential;
+        impulse_[node.body].frictionMoment += arm ^ tangential;
     }
     nodes_.scatter(v, nodes.velocity);
     forAll(loads_, b)
     {
-        loads_[b].force = impulse_[b].force/deltaT;
-        loads_[b].moment = impulse_[b].moment/deltaT;
+        loads_[b] = impulse_[b].times(1/deltaT);
     }
 }
 

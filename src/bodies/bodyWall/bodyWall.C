@@ -321,9 +321,16 @@ void Foam::mpm::bodyWall::solve
         (
             change[k] - mass_[k]*(velocity_[k] - before[k])
         );
-        sum[node.body].force += lost;
-        sum[node.body].moment +=
-            (node.x - bodies_[node.body].motion().centre()) ^ lost;
+        const vector arm(node.x - bodies_[node.body].motion().centre());
+        load& l = sum[node.body];
+        l.force += lost;
+        l.moment += arm ^ lost;
+
+        // Along surfaces that slip masters and slaves keep all they have
+        if (!noSlip_[node.body]) return;
+        const vector along(lost - (node.n & lost)*node.n);
+        l.friction += along;
+        l.frictionMoment += arm ^ along;
     };
     for (const label k : masters_) add(k);
     for (const slave& s : slaves_) add(s.number);
@@ -719,10 +726,8 @@ void Foam::mpm::bodyWall::findLoads
 {
     forAll(loads_, b)
     {
-        loads_[b].force =
-            (impulse_[b].force + projected*projected_[b].force)/deltaT;
-        loads_[b].moment =
-            (impulse_[b].moment + projected*projected_[b].moment)/deltaT;
+        loads_[b] = impulse_[b].times(1/deltaT);
+        loads_[b] += projected_[b].times(projected/deltaT);
     }
 
     // The wall gave its force to the nodes

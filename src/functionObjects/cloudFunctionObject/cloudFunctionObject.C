@@ -24,13 +24,7 @@ void Foam::mpm::cloudFunctionObject::checkEntries(const dictionary& dict) const
     });
     known.append(keywords());
 
-    const dictionary control(subDictOrEmpty(mesh_.solutionDict(), "MPM"));
-    checkKeywords
-    (
-        dict,
-        known,
-        control.lookupOrDefault<Switch>("strictKeywords", true)
-    );
+    checkKeywords(dict, known, strictKeywords());
 }
 
 
@@ -49,6 +43,13 @@ void Foam::mpm::cloudFunctionObject::checkCloud(const dictionary& dict) const
 
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+bool Foam::mpm::cloudFunctionObject::strictKeywords() const
+{
+    const dictionary control(subDictOrEmpty(mesh_.solutionDict(), "MPM"));
+    return control.lookupOrDefault<Switch>("strictKeywords", true);
+}
+
 
 const Foam::mpm::materialPointCloud&
 Foam::mpm::cloudFunctionObject::cloud() const

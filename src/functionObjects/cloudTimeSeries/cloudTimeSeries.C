@@ -13,13 +13,31 @@ License
 void Foam::mpm::cloudTimeSeries::openFile()
 {
     const wordList names(columns());
-    if (names == columns_) return;
+    if (opened_ && names == columns_) return;
 
     // Other columns after a change of controlDict go into another file
-    const bool first = columns_.empty();
+    const bool first = !opened_;
+    opened_ = true;
     columns_ = names;
     if (!writeToFile()) return;
 
+    filePtr_ = beginFile(fileName_, first);
+
+    OFstream& os = file();
+    writeHeader(os, type() + " of the cloud " + cloud().name());
+    for (const string& line : description()) writeHeader(os, line);
+    writeCommented(os, "Time");
+    for (const word& column : columns_) writeTabbed(os, column);
+    os  << endl;
+}
+
+
+Foam::autoPtr<Foam::OFstream> Foam::mpm::cloudTimeSeries::beginFile
+(
+    const word& file,
+    const bool first
+) const
+{
     // A run that begins again at the same time begins the file again. (OpenFOAM
     // would write another one beside it, and readers find the old one.)
     const scalar start = first ? startTime_ : mesh_.time().value();
@@ -33,27 +51,24 @@ void Foam::mpm::cloudTimeSeries::openFile()
     );
     if (Pstream::master())
     {
-        mvBak(directory/(fileName_ + ".dat"));
-        if (first) setLaterAside(start);
+        mvBak(directory/(file + ".dat"));
+        if (first) setLaterAside(file, start);
     }
-    filePtr_ = createFile(fileName_, start);
-
-    OFstream& os = file();
-    writeHeader(os, type() + " of the cloud " + cloud().name());
-    for (const string& line : description()) writeHeader(os, line);
-    writeCommented(os, "Time");
-    for (const word& column : columns_) writeTabbed(os, column);
-    os  << endl;
+    return createFile(file, start);
 }
 
 
-void Foam::mpm::cloudTimeSeries::setLaterAside(const scalar start) const
+void Foam::mpm::cloudTimeSeries::setLaterAside
+(
+    const word& file,
+    const scalar start
+) const
 {
     const fileName root(baseFileDir()/prefix_);
     for (const fileName& name : readDir(root, fileName::DIRECTORY))
     {
         scalar other = 0;
-        const fileName path(root/name/(fileName_ + ".dat"));
+        const fileName path(root/name/(file + ".dat"));
         if (readScalar(name, other) && other > start && isFile(path, false))
         {
             mvBak(path);
@@ -69,6 +84,17 @@ void Foam::mpm::cloudTimeSeries::setLaterAside(const scalar start) const
 void Foam::mpm::cloudTimeSeries::sumToMaster(scalarList& values)
 {
     Pstream::listCombineGather(values, plusEqOp<scalar>());
+}
+
+
+Foam::word Foam::mpm::cloudTimeSeries::timeNow() const
+{
+    // Names of times may be shared by several steps
+    return Time::timeName
+    (
+        useUserTime_ ? mesh_.time().timeOutputValue() : mesh_.time().value(),
+        timeDigits
+    );
 }
 
 
@@ -135,15 +161,7 @@ bool Foam::mpm::cloudTimeSeries::write()
         {
             OFstream& os = file();
 
-            // Names of times may be shared by several steps
-            os  << setw(charWidth())
-                << Time::timeName
-                   (
-                       useUserTime_
-                     ? mesh_.time().timeOutputValue()
-                     : mesh_.time().value(),
-                       timeDigits
-                   );
+            os  << setw(charWidth()) << timeNow();
             for (const scalar number : numbers)
             {
                 os  << tab << valueWidth() << number;

@@ -9,6 +9,7 @@ License
 #include "soilCloud.H"
 #include "bodies.H"
 #include "momentumStep.H"
+#include "movingFrame.H"
 #include "phasePair.H"
 #include "relaxationZone.H"
 #include "functionNeeds.H"
@@ -217,9 +218,31 @@ void Foam::mpm::materialPointSystem::readForces()
         );
     }
 
+    if (properties_.found("frame"))
+    {
+        frame_.reset
+        (
+            new movingFrame
+            (
+                subDictOf(properties_, "frame"), grid_.cells(),
+                settings_.strictKeywords
+            )
+        );
+        for (label b = 0; bodies_.valid() && b < bodies_->size(); ++b)
+        {
+            if (!frame_->turns() || !(*bodies_)[b].motion().pushed()) continue;
+            FatalIOErrorInFunction(properties_)
+                << "body " << (*bodies_)[b].name() << " is rigid, and the frame"
+                << " of the mesh turns: what that does to it is not there."
+                << nl << "    Allowed: bodies that are fixed or prescribed, or a"
+                << " frame with acceleration only" << exit(FatalIOError);
+        }
+    }
+
     forced_ = false;
     for (materialPointCloud& cloud : clouds_)
     {
+        if (frame_.valid()) cloud.setForced();
         if (pressureGradient_.valid()) cloud.setForced();
         forced_ = forced_ || cloud.forced();
     }
@@ -228,7 +251,8 @@ void Foam::mpm::materialPointSystem::readForces()
 
 Foam::vector Foam::mpm::materialPointSystem::gravityAt(const scalar time) const
 {
-    return gravityInTime_.valid() ? gravityInTime_->value(time) : g_;
+    const vector g(gravityInTime_.valid() ? gravityInTime_->value(time) : g_);
+    return frame_.valid() ? frame_->uniform(g, time) : g;
 }
 
 
@@ -336,6 +360,7 @@ void Foam::mpm::materialPointSystem::checkDictionaries
     wordList known(names);
     known.append("clouds");
     known.append("bodies");
+    known.append("frame");
     if (settings_.coupled) known.append("interaction");
 
     for (const entry& e : properties_)
@@ -458,6 +483,7 @@ void Foam::mpm::materialPointSystem::makeClouds()
             known.append("clouds");
             known.append("interaction");
             known.append("bodies");
+            known.append("frame");
             checkKeywords(properties_, known, true);
         }
         const phaseRole role = roleOf(subDictOf(properties_, name));
@@ -586,6 +612,7 @@ void Foam::mpm::materialPointSystem::makeMomentum()
         momentumStep::scene
         {
             clouds_, liquid_, solids_, pairs_, zones_, bodies_.get(),
+            frame_.valid() && frame_->turns() ? frame_.get() : nullptr,
             [this]()
             {
                 return gravityAt(time_.value() - 0.5*time_.deltaTValue());
@@ -1013,6 +1040,7 @@ void Foam::mpm::materialPointSystem::moveNodes()
 {
     const scalar deltaT = time_.deltaTValue();
 
+    if (frame_.valid()) frame_->start(time_.value(), deltaT);
     setForces(deltaT);
     if (bodies_.valid()) bodies_->findVelocities(time_.value(), deltaT);
     momentum_->solve(deltaT);
@@ -1030,6 +1058,7 @@ void Foam::mpm::materialPointSystem::gridToParticles()
         {
             cost_.start("work of body forces");
             cloud.addForceWork(deltaT);
+            if (frame_.valid() && frame_->turns()) frame_->addWork(cloud);
             cost_.stop();
         }
     }

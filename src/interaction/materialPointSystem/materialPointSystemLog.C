@@ -11,6 +11,7 @@ Description
 #include "materialPointSystem.H"
 #include "bodies.H"
 #include "effectsTable.H"
+#include "movingFrame.H"
 #include "phasePair.H"
 #include "relaxationZone.H"
 #include "soilCloud.H"
@@ -156,6 +157,12 @@ void Foam::mpm::materialPointSystem::reportEffects() const
     (
         "body forces", forced_,
         forced_ ? "beside gravity of constant/g" : "gravity alone"
+    );
+    table.add
+    (
+        "moving frame", frame_.valid(),
+        !frame_.valid() ? "materialPointProperties/frame"
+      : frame_->turns() ? "accelerated and turning" : "accelerated"
     );
     table.add
     (

@@ -123,6 +123,10 @@ void Foam::mpm::materialPointSystem::describeCase() const
     {
         record_.settings().set("bodies", properties_.subDict("bodies"));
     }
+    if (frame_.valid())
+    {
+        record_.settings().set("frame", properties_.subDict("frame"));
+    }
     record_.settings().set("gravity", g_);
     record_.settings().set
     (

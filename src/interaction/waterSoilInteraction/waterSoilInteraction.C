@@ -510,9 +510,14 @@ void Foam::mpm::waterSoilInteraction::startNodes()
     mixed_.clear();
     nodes_.clear();
     solidFraction_.clear();
-    if (water_.nodes().mirrorsRecorded())
+    fields_.recorded =
+        water.mirrorsRecorded() && soil.mirrorsRecorded();
+    if (fields_.recorded)
     {
-        fields_.mirroredForce.assign(grid_.nNodes(), nodeVector{});
+        fields_.mirroredForce.assign
+            (water.mirrored.force.size(), nodeVector{});
+        fields_.mirroredForceOfSolids.assign
+            (soil.mirrored.force.size(), nodeVector{});
     }
     bulkVolume_.clear();
     nPacked_ = 0;
@@ -634,16 +639,14 @@ void Foam::mpm::waterSoilInteraction::addForces(const scalar)
     nodalFields& water = water_.nodes();
 
     grid_.exchange().sum(fields_.pressureForce);
-    if (!fields_.mirroredForce.empty())
+    if (fields_.recorded)
     {
-        grid_.exchange().sum(fields_.mirroredForce);
-        fields_.forNodes
-        (
-            [&](const label i)
-            {
-                water.mirrored.force[i] += fields_.mirroredForce[i];
-            }
-        );
+        auto add = [](const auto& from, auto& to)
+        {
+            for (size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+        };
+        add(fields_.mirroredForce, water.mirrored.force);
+        add(fields_.mirroredForceOfSolids, soil.mirrored.force);
     }
 
     if (divergenceForm_)

@@ -78,6 +78,7 @@ void Foam::mpm::materialPointCloud::zeroNodes()
     {
         nodes_.zero(range.first, range.second);
     }
+    if (nodes_.mirrorsRecorded()) nodes_.zeroMirrored();
 }
 
 
@@ -101,9 +102,12 @@ void Foam::mpm::materialPointCloud::makeNodes()
     }
     if (recordWallLoads)
     {
-        nodes_.mirrored.force.assign(n, nodeVector{});
-        nodes_.mirrored.momentum.assign(n, nodeVector{});
-        nodes_.mirrored.mass.assign(n, nodeVector{});
+        boundary_.record();
+        const size_t nSlots = boundary_.folding().slots().size();
+        nodes_.mirrored.recorded = true;
+        nodes_.mirrored.force.assign(nSlots, nodeVector{});
+        nodes_.mirrored.momentum.assign(nSlots, nodeVector{});
+        nodes_.mirrored.mass.assign(nSlots, nodeVector{});
     }
     if (filtered) filter_.assign(n, nodeVector{});
 }
@@ -486,24 +490,22 @@ void Foam::mpm::materialPointCloud::finishNodes(const scalar deltaT)
     if (!leads()) return;
 
     boundary_.finish(deltaT, nodes_);
-    if (!nodes_.mirrorsRecorded()) return;
+    findWallLoads(deltaT);
+}
 
-    wallLoads_.clear();
-    for (const nodeConstraint& c : boundary_.constraints())
-    {
-        nodeConstraint::load sum
-        (
-            c.taken(nodes_, deltaT, transfer_->picFraction(deltaT))
-        );
-        reduce(sum.force, sumOp<vector>());
-        reduce(sum.moment, sumOp<vector>());
-        wallLoads_(c.type()) += sum;
-    }
+
+void Foam::mpm::materialPointCloud::findWallLoads(const scalar deltaT)
+{
+    if (!leads() || !nodes_.mirrorsRecorded()) return;
+
+    wallLoads_ =
+        boundary_.loads(nodes_, deltaT, transfer_->picFraction(deltaT));
 }
 
 
 void Foam::mpm::materialPointCloud::recordWallLoads()
 {
+    if (leader().recordWallLoads_) return;
     field_->clouds.front()->recordWallLoads_ = true;
     makeNodes();
     activate(false);

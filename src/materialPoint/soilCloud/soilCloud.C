@@ -259,6 +259,7 @@ void Foam::mpm::soilCloud::pushBody
 void Foam::mpm::soilCloud::followBodies(const scalar deltaT)
 {
     if (contact_.valid()) contact_->follow(deltaT, nodes_);
+    findWallLoads(deltaT);
 }
 
 

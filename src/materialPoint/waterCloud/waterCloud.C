@@ -824,6 +824,7 @@ void Foam::mpm::waterCloud::followBodies(const scalar deltaT)
 {
     wall_->react(nodes_);
     wall_->findLoads(deltaT, transfer_->picFraction(deltaT));
+    findWallLoads(deltaT);
 }
 
 

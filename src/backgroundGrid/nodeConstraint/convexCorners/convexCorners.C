@@ -132,23 +132,30 @@ void Foam::mpm::convexCorners::constrain
 }
 
 
-Foam::mpm::nodeConstraint::load Foam::mpm::convexCorners::taken
+void Foam::mpm::convexCorners::take
 (
     const nodeMotion& nodes,
     const scalar deltaT,
-    const scalar projected
+    const scalar projected,
+    const wallShares& shares,
+    List<load>& loads
 ) const
 {
-    load sum;
     for (const label i : active_)
     {
         const cone& c = cones_[i];
-        add
-        (
-            c.node, lost(nodes, c.node, deltaT, projected), c.intoSolid, sum
-        );
+        const nodeVector f =
+            grid_.share(c.node)*lost(nodes, c.node, deltaT, projected);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            if (c.intoSolid[d] == 0) continue;
+            give
+            (
+                grid_, c.node, cellSides::sideOf(d, c.intoSolid[d]), d, f[d],
+                [](const label) { return true; }, shares, loads
+            );
+        }
     }
-    return sum;
 }
 
 // ************************************************************************* //

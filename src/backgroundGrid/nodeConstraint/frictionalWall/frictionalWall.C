@@ -256,15 +256,16 @@ void Foam::mpm::frictionalWall::finish
 }
 
 
-Foam::mpm::nodeConstraint::load Foam::mpm::frictionalWall::taken
+void Foam::mpm::frictionalWall::take
 (
     const nodeMotion& nodes,
     const scalar deltaT,
-    const scalar projected
+    const scalar projected,
+    const wallShares& shares,
+    List<load>& loads
 ) const
 {
     // What is normal to it the mirror takes
-    load sum;
     for (const label i : active_)
     {
         const wallNode& w = nodes_[i];
@@ -281,11 +282,18 @@ Foam::mpm::nodeConstraint::load Foam::mpm::frictionalWall::taken
                     )
                 );
         }
-        nodeVector along{1, 1, 1, 0};
-        along[w.direction] = 0;
-        add(w.node, f, along, sum);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            if (d == w.direction) continue;
+            give
+            (
+                grid_, w.node, cellSides::sideOf(w.direction, w.sign), d,
+                grid_.share(w.node)*f[d],
+                [&](const label patch) { return coefficient_.found(patch); },
+                shares, loads
+            );
+        }
     }
-    return sum;
 }
 
 // ************************************************************************* //

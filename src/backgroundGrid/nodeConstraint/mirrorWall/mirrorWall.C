@@ -178,40 +178,78 @@ void Foam::mpm::mirrorWall::constrain
 }
 
 
-Foam::mpm::nodeConstraint::load Foam::mpm::mirrorWall::taken
+void Foam::mpm::mirrorWall::take
 (
     const nodeMotion& nodes,
     const scalar deltaT,
-    const scalar projected
+    const scalar projected,
+    const wallShares& shares,
+    List<load>& loads
 ) const
 {
-    const nodeVector all{1, 1, 1, 0};
-    load sum;
+    auto any = [](const label) { return true; };
+    auto fixed = [&](const label patch)
+    {
+        return shares.kind(patch) == cellSides::fixedWall;
+    };
+    auto giveComponent = [&]
+    (
+        const label node,
+        const label d,
+        const scalar force
+    )
+    {
+        // To the walls across it, or else those that hold all components
+        DynamicList<label> sides(cellSides::maxSides);
+        auto collect = [&](const auto& fits)
+        {
+            for (label side = 0; side < 2*grid_.nDim(); ++side)
+            {
+                if (shares.found(node, side) && fits(side)) sides.append(side);
+            }
+        };
+        collect([&](const label side) { return side/2 == d; });
+        const bool across = !sides.empty();
+        if (!across)
+        {
+            collect
+            (
+                [&](const label side)
+                {
+                    bool holds = false;
+                    shares.forShares
+                    (
+                        node, side, fixed,
+                        [&](const label, const scalar) { holds = true; }
+                    );
+                    return holds;
+                }
+            );
+        }
+        for (const label side : sides)
+        {
+            const scalar f = force/sides.size();
+            if (across) give(grid_, node, side, d, f, any, shares, loads);
+            else give(grid_, node, side, d, f, fixed, shares, loads);
+        }
+    };
     for (const label i : activeSlip_)
     {
         const label node = slipNodes_[i];
-        add
-        (
-            node, lost(nodes, node, deltaT, projected), all - slipMask_[i], sum
-        );
+        const nodeVector f =
+            grid_.share(node)*lost(nodes, node, deltaT, projected);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            if (slipMask_[i][d] == 0) giveComponent(node, d, f[d]);
+        }
     }
     for (const label i : activeFixed_)
     {
         const label node = fixedNodes_[i];
-        add(node, lost(nodes, node, deltaT, projected), all, sum);
+        const nodeVector f =
+            grid_.share(node)*lost(nodes, node, deltaT, projected);
+        for (label d = 0; d < grid_.nDim(); ++d) giveComponent(node, d, f[d]);
     }
-
-    // And through ghost nodes
-    const nodeMotion::mirrorSums& m = nodes.mirrored;
-    for (label node = 0; node < grid_.nNodes(); ++node)
-    {
-        const nodeVector& old = nodes.oldVelocity[node];
-        const nodeVector f = m.force[node]
-          + m.mass[node]*(nodes.velocity[node] - old)/deltaT
-          + projected/deltaT*(m.momentum[node] + m.mass[node]*old);
-        add(node, f, all, sum);
-    }
-    return sum;
 }
 
 // ************************************************************************* //

@@ -19,27 +19,6 @@ namespace mpm
 }
 
 
-// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-void Foam::mpm::nodeConstraint::add
-(
-    const label node,
-    const nodeVector& force,
-    const nodeVector& mask,
-    load& sum
-) const
-{
-    vector f(Zero);
-    for (label d = 0; d < grid_.nDim(); ++d)
-    {
-        if (mask[d] != 0) f[grid_.cells().axis(d)] = force[d];
-    }
-    f *= grid_.share(node);
-    sum.force += f;
-    sum.moment += grid_.nodePosition(node) ^ f;
-}
-
-
 // * * * * * * * * * * * * * * * * Selector  * * * * * * * * * * * * * * * * //
 
 Foam::autoPtr<Foam::mpm::nodeConstraint> Foam::mpm::nodeConstraint::New

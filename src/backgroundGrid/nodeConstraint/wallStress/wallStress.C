@@ -105,7 +105,8 @@ void Foam::mpm::wallStress::build(const wallNodes& walls)
                         side/2,
                         values.sum(node, side)/n,
                         area,
-                        next < 0 ? node : next
+                        next < 0 ? node : next,
+                        side
                     }
                 );
             }
@@ -174,22 +175,31 @@ void Foam::mpm::wallStress::finish(const scalar deltaT, nodeMotion& nodes)
 }
 
 
-Foam::mpm::nodeConstraint::load Foam::mpm::wallStress::taken
+void Foam::mpm::wallStress::take
 (
     const nodeMotion& nodes,
     const scalar deltaT,
-    const scalar projected
+    const scalar projected,
+    const wallShares& shares,
+    List<load>& loads
 ) const
 {
     // What is normal to it the mirror takes
-    load sum;
     for (const label i : active_)
     {
-        nodeVector along{1, 1, 1, 0};
-        along[nodes_[i].direction] = 0;
-        add(nodes_[i].node, lost_[i]/deltaT, along, sum);
+        const wallNode& w = nodes_[i];
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            if (d == w.direction) continue;
+            give
+            (
+                grid_, w.node, w.side, d,
+                grid_.share(w.node)*lost_[i][d]/deltaT,
+                [&](const label patch) { return roughness_.found(patch); },
+                shares, loads
+            );
+        }
     }
-    return sum;
 }
 
 // ************************************************************************* //

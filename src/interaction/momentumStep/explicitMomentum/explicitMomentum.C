@@ -5,6 +5,7 @@ License
 
 #include "explicitMomentum.H"
 #include "bodies.H"
+#include "movingFrame.H"
 #include "phasePair.H"
 #include "relaxationZone.H"
 #include "soilCloud.H"
@@ -74,6 +75,12 @@ void Foam::mpm::explicitMomentum::solve(const scalar deltaT)
     for (phasePair& pair : pairs) pair.afterLiquidStress();
     for (soilCloud* solid : scene_.solids) solid->updateStress(deltaT);
 
+    if (scene_.frame)
+    {
+        scene_.cost.start("moving frame");
+        for (materialPointCloud& cloud : clouds) scene_.frame->addForces(cloud);
+        scene_.cost.stop();
+    }
     for (phasePair& pair : pairs) pair.addForces(deltaT);
     for (materialPointCloud& cloud : clouds) cloud.updateNodes(deltaT);
     for (phasePair& pair : pairs) pair.exchangeMomentum(deltaT);
