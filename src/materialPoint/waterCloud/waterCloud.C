@@ -41,9 +41,13 @@ namespace mpm
         string patches;
         forAll(U.boundaryField(), patchi)
         {
+            // Of these there are as many on all ranks
             const fvPatchVectorField& patch = U.boundaryField()[patchi];
-            const label nFaces = returnReduce(patch.size(), sumOp<label>());
-            if (patch.type() == "noSlip" && nFaces)
+            if
+            (
+                patch.type() == "noSlip"
+             && returnReduce(patch.size(), sumOp<label>())
+            )
             {
                 patches += ' ' + patch.patch().name();
             }
