@@ -15,15 +15,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
-for place in ["etc/python", "test", "test/cases"]:
+for place in ["etc/python", "test", "test/cases", "validation/stability"]:
     sys.path.insert(0, str(REPOSITORY/place))
 
-import caseBuilder  # noqa: E402
-from conftest import Figures  # noqa: E402
 from hardCases import HARD, ElementTest  # noqa: E402
 from mpmfoam import figureTable  # noqa: E402
-
-caseBuilder.TIMEOUT = 7200
+from stability import Bounds  # noqa: E402
 
 # Name -> entries of the cloud water, and what slip walls become
 MODELS = {
@@ -39,24 +36,13 @@ MODELS = {
             "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 1e-2}}, None)}
 
 
-class Bounds(Figures):
-    """What a case compares, kept"""
-
-    def __init__(self, name):
-        super().__init__(name)
-        self.rows = []
-
-    def _add(self, name, value, relation, bound, good, listed=False):
-        super()._add(name, value, relation, bound, good, listed)
-        try:
-            value = float(value)
-        except (TypeError, ValueError):
-            value = float(good)
-        self.rows.append((name, value, f"{relation} {bound}", bool(good)))
+def number(value, good):
+    """Of a figure that is a text, whether it is right"""
+    return value if isinstance(value, float) else float(good)
 
 
 def applies(name):
-    """Has it water, and a choice of walls and of models of its own?"""
+    """Is it a run of mpmFoam with water?"""
     setup = HARD[name].setup(**HARD[name].quick)
     return not isinstance(setup, ElementTest) and "water" in setup.clouds
 
@@ -76,10 +62,11 @@ def run(model, name):
         hard.bounds(bounds, case)
     except AssertionError as error:
         reason = " ".join(str(error).split())
-        bounds.rows.append(("runs to its end", 0, reason[-300:], False))
+        bounds.rows.append(("runs to its end", 0.0, "", reason[-300:], False))
     finally:
         shutil.rmtree(path, ignore_errors=True)
-    return bounds.rows
+    return [(figure, number(value, good), f"{relation} {bound}".strip(), good)
+            for figure, value, relation, bound, good in bounds.rows]
 
 
 RUNS = {f"{model} {name}": (lambda _, model=model, name=name: run(model, name))
