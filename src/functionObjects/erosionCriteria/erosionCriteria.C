@@ -22,7 +22,7 @@ namespace mpm
     defineTypeNameAndDebug(erosionCriteria, 0);
     addToRunTimeSelectionTable(functionObject, erosionCriteria, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfErosionCriteria
     (
         "erosionCriteria", functionNeeds::WRITE_TIMES
     );

@@ -18,7 +18,7 @@ namespace mpm
     defineTypeNameAndDebug(frontPosition, 0);
     addToRunTimeSelectionTable(functionObject, frontPosition, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfFrontPosition
     (
         "frontPosition", functionNeeds::NO_FIELDS
     );

@@ -14,7 +14,7 @@ namespace mpm
     defineTypeNameAndDebug(massBalance, 0);
     addToRunTimeSelectionTable(functionObject, massBalance, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfMassBalance
     (
         "massBalance", functionNeeds::NO_FIELDS
     );

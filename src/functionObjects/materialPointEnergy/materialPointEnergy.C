@@ -15,7 +15,7 @@ namespace mpm
     defineTypeNameAndDebug(materialPointEnergy, 0);
     addToRunTimeSelectionTable(functionObject, materialPointEnergy, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfMaterialPointEnergy
     (
         "materialPointEnergy", functionNeeds::NO_FIELDS, true
     );

@@ -19,7 +19,7 @@ namespace mpm
     defineTypeNameAndDebug(materialPointForces, 0);
     addToRunTimeSelectionTable(functionObject, materialPointForces, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfMaterialPointForces
     (
         "materialPointForces", functionNeeds::NO_FIELDS
     );

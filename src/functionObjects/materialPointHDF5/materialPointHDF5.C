@@ -24,7 +24,7 @@ namespace mpm
     defineTypeNameAndDebug(materialPointHDF5, 0);
     addToRunTimeSelectionTable(functionObject, materialPointHDF5, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfMaterialPointHDF5
     (
         "materialPointHDF5", functionNeeds::NO_FIELDS
     );

@@ -17,7 +17,7 @@ namespace mpm
     defineTypeNameAndDebug(scourProfile, 0);
     addToRunTimeSelectionTable(functionObject, scourProfile, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfScourProfile
     (
         "scourProfile", functionNeeds::WRITE_TIMES
     );

@@ -14,7 +14,7 @@ namespace mpm
     defineTypeNameAndDebug(waveGauge, 0);
     addToRunTimeSelectionTable(functionObject, waveGauge, dictionary);
 
-    static const functionNeeds::add needs
+    static const functionNeeds::add needsOfWaveGauge
     (
         "waveGauge", functionNeeds::NO_FIELDS
     );

@@ -1,0 +1,10 @@
+// Compiled as one, as headers take most of the time: see CONTRIBUTING.md
+#include "lattice.C"
+#include "latticeDiagnosis.C"
+#include "neighbourRanks.C"
+#include "nodeExchange.C"
+#include "backgroundGrid.C"
+#include "reachWeights.C"
+#include "inflowZone.C"
+#include "cellSides.C"
+#include "nodeTiles.C"

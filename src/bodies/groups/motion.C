@@ -1,0 +1,12 @@
+// Compiled as one, as headers take most of the time: see CONTRIBUTING.md
+#include "closedSurface.C"
+#include "signedDistance.C"
+#include "bodyPath.C"
+#include "functionPath.C"
+#include "pistonWave.C"
+#include "bodyMotion.C"
+#include "fixedBody.C"
+#include "prescribedBody.C"
+#include "rigidMotion.C"
+#include "body.C"
+#include "bodies.C"

@@ -1,0 +1,13 @@
+// Compiled as one, as headers take most of the time: see CONTRIBUTING.md
+#include "placedRegions.C"
+#include "initialStress.C"
+#include "noStress.C"
+#include "uniformStress.C"
+#include "geostaticStress.C"
+#include "initialPressure.C"
+#include "uniformPressure.C"
+#include "hydrostaticPressure.C"
+#include "soilPlacement.C"
+#include "waterPlacement.C"
+#include "columnDecomposition.C"
+#include "cellDecomposition.C"

@@ -1,0 +1,10 @@
+// Compiled as one, as headers take most of the time: see CONTRIBUTING.md
+#include "caseLock.C"
+#include "momentumStep.C"
+#include "explicitMomentum.C"
+#include "caseRecord.C"
+#include "functionNeeds.C"
+#include "remainingTime.C"
+#include "materialPointSystem.C"
+#include "materialPointSystemLog.C"
+#include "materialPointSystemRestart.C"

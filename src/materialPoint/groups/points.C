@@ -1,0 +1,13 @@
+// Compiled as one, as headers take most of the time: see CONTRIBUTING.md
+#include "pointStorage.C"
+#include "vectorInTime.C"
+#include "cellOrder.C"
+#include "machineMemory.C"
+#include "stepLimits.C"
+#include "lagrangianGeometry.C"
+#include "pointSelection.C"
+#include "lagrangianOutput.C"
+#include "pointRegion.C"
+#include "polygonRegion.C"
+#include "searchableRegion.C"
+#include "cellZoneRegion.C"
