@@ -267,6 +267,8 @@ void Foam::mpm::runForecast::takeSteps
         soundSpeed_ = liquid.fluid().soundSpeed();
         flowSpeed_ = liquid.globalMaxSpeed();
         liquidDeltaT_ = maxCo_*h/(soundSpeed_ + flowSpeed_);
+        usefulCo_ = min(usefulCo_, floor(100*liquid.scatteredDeltaT()/h
+            *(soundSpeed_ + flowSpeed_))/100);
     }
 }
 
@@ -390,11 +392,11 @@ void Foam::mpm::runForecast::reportCheaper() const
 
     const bool waves = limiter_.find("sound") != std::string::npos
         || limiter_.find("stiffness") != std::string::npos;
-    if (adjusts_ && waves && maxCo_ < 0.69)
+    if (adjusts_ && waves && maxCo_ < usefulCo_)
     {
         cheaper
         (
-            "maxCo 0.7", maxCo_/0.7,
+            "maxCo " + Foam::name(usefulCo_), maxCo_/usefulCo_,
             "no change of the error in five scenes"
         );
     }
@@ -470,6 +472,7 @@ Foam::mpm::runForecast::runForecast
     rss_(0),
     adjusts_(false),
     maxCo_(0),
+    usefulCo_(0.7),
     limiter_("none"),
     deltaT_(0),
     liquidDeltaT_(GREAT),

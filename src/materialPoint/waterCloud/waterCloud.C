@@ -892,6 +892,17 @@ Foam::scalar Foam::mpm::waterCloud::maxWaveSpeed() const
 }
 
 
+Foam::scalar Foam::mpm::waterCloud::scatteredDeltaT() const
+{
+    // omega dt < 2 with omega^2 = 4 dim (c/h)^2, that of a point which shares
+    // its nodes with no other. Points within a body of water are less stiff,
+    // those at the edge of a film are on their way to it
+    return
+        grid_.cells().minSpacing()
+       /(fluid_.soundSpeed(min(globalMinJ_, scalar(1)))*sqrt(scalar(grid_.nDim())));
+}
+
+
 void Foam::mpm::waterCloud::addLimits(stepLimits& limits)
 {
     limits.addMinimum
@@ -899,6 +910,12 @@ void Foam::mpm::waterCloud::addLimits(stepLimits& limits)
         stepLimits::end, [this]() { return minJ_; }, globalMinJ_
     );
     materialPointCloud::addLimits(limits);
+    const scalar maxCo = limits.maxCo();
+    limits.add
+    (
+        name() + " scattered sound",
+        [this, maxCo]() { return scatteredDeltaT()/maxCo; }
+    );
     if (nut_ >= 0)
     {
         limits.addMaximum
