@@ -1,4 +1,4 @@
 // Compiled as one, as headers take most of the time: see CONTRIBUTING.md
-#include "bodyNodes.C"
-#include "bodyWall.C"
-#include "bodyContact.C"
+#include "../bodyNodes/bodyNodes.C"
+#include "../bodyWall/bodyWall.C"
+#include "../bodyContact/bodyContact.C"

@@ -1,5 +1,5 @@
 // Compiled as one, as headers take most of the time: see CONTRIBUTING.md
-#include "columnSurfaces.C"
-#include "bedTimeSeries.C"
-#include "scourProfile.C"
-#include "erosionCriteria.C"
+#include "../scourProfile/columnSurfaces.C"
+#include "../bedTimeSeries/bedTimeSeries.C"
+#include "../scourProfile/scourProfile.C"
+#include "../erosionCriteria/erosionCriteria.C"

@@ -1,4 +1,4 @@
 // Compiled as one, as headers take most of the time: see CONTRIBUTING.md
-#include "gaugeWeights.C"
-#include "gridVolume.C"
-#include "waveGauge.C"
+#include "../waveGauge/gaugeWeights.C"
+#include "../waveGauge/gridVolume.C"
+#include "../waveGauge/waveGauge.C"
