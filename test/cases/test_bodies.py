@@ -403,6 +403,30 @@ def testBadInput(tmp_path, figures, body, changes, message):
                   text[-400:])
 
 
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("thickness", [0.1, 0.3, 0.49, 0.7, 1.5])
+@pytest.mark.parametrize("offset", [0, 0.13, 0.25, 0.5])
+def testPlatesAreRefused(tmp_path, figures, thickness, offset, turned):
+    """Also those that lie between the samples of the distance, which are half
+    a cell apart; thickness and offset in cells"""
+    h = 0.02
+    x = 0.5 + offset*h
+    box = {"type": "box", "min": (x, 0.1, -1),
+           "max": (x + thickness*h, 0.3, 1)}
+    if turned:
+        e = (np.cos(0.4), np.sin(0.4), 0)
+        box = {"type": "rotatedBox", "origin": (x, 0.1, -1),
+               "span": (thickness*h, 0.2, 2), "e1": e, "e3": (0, 0, 1)}
+    case = Setup(
+        cells=(50, 30), h=h, regions={"pool": hydrostatic((0, 0), (1, 0.4))},
+        bodies={"wall": {"type": "fixed", "surface": box}},
+        energy=False).write(tmp_path/"case")
+    with pytest.raises(CaseError) as error:
+        case.prepare()
+    figures.contains("message", " ".join(str(error.value).split()),
+                     "body wall is thinner than.*Allowed: 0.05 m or thicker")
+
+
 def testBodiesThatOverlap(tmp_path, figures):
     case = Setup(
         cells=(50, 30), h=0.02, regions={"pool": hydrostatic((0, 0), (1, 0.4))},

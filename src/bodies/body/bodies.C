@@ -15,8 +15,8 @@ void Foam::mpm::bodies::checkThickness() const
     for (const body& b : bodies_)
     {
         // Straight through the body from nodes just inside of its surface
-        scalar thinnest = GREAT;
-        point where(Zero);
+        scalar thinnest = b.thinnest();
+        point where(b.thinnestAt());
         const label nDim = grid_.nDim();
         const int64_t n = int64_t(grid_.nBoxNodes()) << nDim;
         for (int64_t i = 0; i < n; ++i)

@@ -5,6 +5,7 @@ License
 
 #include "signedDistance.H"
 #include "searchableSurface.H"
+#include "DynamicList.H"
 #include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -34,7 +35,9 @@ Foam::mpm::signedDistance::signedDistance
 :
     nDim_(cells.nDim()),
     spacing_(spacing),
-    bounds_(region)
+    bounds_(region),
+    thinnest_(GREAT),
+    thinnestAt_(Zero)
 {
     n_ = 1;
     label size = 1;
@@ -70,6 +73,64 @@ Foam::mpm::signedDistance::signedDistance
     {
         const scalar distance = mag(nearest[i].hitPoint() - position[i]);
         value_[i] = side[i] == volumeType::INSIDE ? -distance : distance;
+    }
+    findThinnest(surface, position, nearest, side);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::mpm::signedDistance::findThinnest
+(
+    const searchableSurface& surface,
+    const pointField& position,
+    const List<pointIndexHit>& nearest,
+    const List<volumeType>& side
+)
+{
+    // From outside through the nearest place of the surface to the other side
+    const scalar skin = 1e-4*spacing_;
+    DynamicList<point> start, end;
+    forAll(position, i)
+    {
+        const vector way(nearest[i].hitPoint() - position[i]);
+        const scalar distance = mag(way);
+        if
+        (
+            side[i] == volumeType::INSIDE
+         || distance > 1.5*spacing_
+         || distance < skin
+        ) continue;
+        const vector n(way/distance);
+        start.append(nearest[i].hitPoint() + skin*n);
+        end.append(nearest[i].hitPoint() + 2*spacing_*n);
+    }
+    List<pointIndexHit> exit;
+    surface.findLine(pointField(start), pointField(end), exit);
+
+    DynamicList<pointIndexHit> hits;
+    DynamicList<label> line;
+    forAll(exit, i)
+    {
+        if (!exit[i].hit()) continue;
+        hits.append(exit[i]);
+        line.append(i);
+    }
+    vectorField normal;
+    surface.getNormal(hits, normal);
+    forAll(hits, i)
+    {
+        const point& from = start[line[i]];
+        const vector through(hits[i].hitPoint() - from);
+        const scalar depth = mag(through);
+
+        // Not at edges, whose sides meet at an angle
+        if (depth < skin || mag(through & normal[i]) < 0.7*depth) continue;
+        if (depth + skin < thinnest_)
+        {
+            thinnest_ = depth + skin;
+            thinnestAt_ = from;
+        }
     }
 }
 
