@@ -85,7 +85,17 @@ void Foam::mpm::body::sample
             << " or less; a smaller body, or a coarser mesh"
             << exit(FatalIOError);
     }
-    distance_.reset(new signedDistance(surface.surface(), region, spacing, cells));
+    distance_.reset
+    (
+        new signedDistance
+        (
+            surface.surface(),
+            region,
+            motion_->moves() ? region : mesh,
+            spacing,
+            cells
+        )
+    );
 }
 
 

@@ -29,6 +29,7 @@ Foam::mpm::signedDistance::signedDistance
 (
     const searchableSurface& surface,
     const boundBox& region,
+    const boundBox& within,
     const scalar spacing,
     const lattice& cells
 )
@@ -74,7 +75,7 @@ Foam::mpm::signedDistance::signedDistance
         const scalar distance = mag(nearest[i].hitPoint() - position[i]);
         value_[i] = side[i] == volumeType::INSIDE ? -distance : distance;
     }
-    findThinnest(surface, position, nearest, side);
+    findThinnest(surface, within, position, nearest, side);
 }
 
 
@@ -83,6 +84,7 @@ Foam::mpm::signedDistance::signedDistance
 void Foam::mpm::signedDistance::findThinnest
 (
     const searchableSurface& surface,
+    const boundBox& within,
     const pointField& position,
     const List<pointIndexHit>& nearest,
     const List<volumeType>& side
@@ -100,6 +102,7 @@ void Foam::mpm::signedDistance::findThinnest
             side[i] == volumeType::INSIDE
          || distance > 1.5*spacing_
          || distance < skin
+         || !within.contains(nearest[i].hitPoint())
         ) continue;
         const vector n(way/distance);
         start.append(nearest[i].hitPoint() + skin*n);
@@ -124,8 +127,9 @@ void Foam::mpm::signedDistance::findThinnest
         const vector through(hits[i].hitPoint() - from);
         const scalar depth = mag(through);
 
-        // Not at edges, whose sides meet at an angle
-        if (depth < skin || mag(through & normal[i]) < 0.7*depth) continue;
+        // Sides that meet at an edge are no plate, however thin they end: they
+        // differ by 1:16 at least
+        if (depth < skin || mag(through & normal[i]) < 0.998*depth) continue;
         if (depth + skin < thinnest_)
         {
             thinnest_ = depth + skin;
