@@ -165,3 +165,32 @@ def testFarEnd(tmp_path, figures):
     figures.contains("log", re.search(r"Remaining = \S+ s .*", text),
                      "Remaining = ")
     figures.holds("no date", "until" not in text)
+
+
+def testFunctionObjects(tmp_path, figures):
+    """They are tried, count, and leave nothing; steps end at their times"""
+    interval = 7e-4
+    each = {"libs": '("libmpmFunctionObjects.so")', "cloud": "water",
+            "writeControl": "adjustableRunTime", "writeInterval": interval}
+    functions = {
+        "balance": {"type": "massBalance", **each},
+        "front": {"type": "frontPosition", "direction": "(1 0 0)", **each}}
+    steps, texts = {}, {}
+    for name, more in [("without", {}), ("with", functions)]:
+        setup = damBreak(h=0.01, points=3, mpm={"logInterval": 5},
+                         functions=more, energy=False)
+        case = prepared(setup.until(0.28, write=0.07), tmp_path/name)
+        found, texts[name] = forecast(case.path)
+        steps[name] = number(found["steps"], r"([\d.e+]+)")
+        figures.holds(f"{name}: no postProcessing",
+                      not (case.path/"postProcessing").exists())
+    case.solve()
+    figures.contains("with: counted", texts["with"], "; function objects ")
+    figures.equal("without: none counted",
+                  "; function objects " in texts["without"], False)
+    figures.equal("with: whole steps from time to time",
+                  round(steps["with"]) % round(0.28/interval), 0)
+    figures.atMost("with: steps, forecast over truth, distance to 1",
+                   abs(steps["with"]/case.log.stepCount - 1), 0.1)
+    figures.atLeast("with: steps over those without",
+                    steps["with"]/steps["without"], 1.1)

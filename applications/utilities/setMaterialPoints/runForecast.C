@@ -8,11 +8,15 @@ License
 #include "memInfo.H"
 #include "messageStream.H"
 #include "OSspecific.H"
+#include "functionNeeds.H"
+#include "functionObject.H"
 #include "inflowOutflow.H"
+#include "bodies.H"
 #include "soilCloud.H"
 #include "waterCloud.H"
 #include <cmath>
 #include <ctime>
+#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -21,15 +25,33 @@ namespace
 
 using namespace Foam;
 
-//- The trial: CPU time that is enough, steps that are at least made for it, and
-//  steps that are always made [s, -, -]
+//- The trial: CPU time that is enough, of a short run and of a long one, in
+//  which it is that part of the run: the speed of a machine that is shared
+//  varies by a third from one second to the next [s, s, -]
 const scalar enoughTime = 0.1;
+const scalar longTime = 1;
+const scalar enoughPart = 0.02;
+
+//- Steps that are at least made for it, at most, and always [-]
 const label enoughSteps = 20;
+const label mostSteps = 1000;
 const label fewestSteps = 3;
+
+//- CPU time of the points of a liquid that falls, once they are mixed and
+//  spread, over that at the start in order: 1.35 in tutorials/damBreak at 0.3 s,
+//  1.1 and 1.5 in damBreakObstacle3D at 0.5 and 1.5 s (of the kernels, perf)
+const scalar mixedTime = 1.3;
+
+//- What falls: acceleration over gravity. Waves that are no splash have less,
+//  what is not held on one side has 1
+const scalar falling = 0.3;
+
+//- Times that function objects are tried; the first one allocates
+const label nFunctionTrials = 4;
 
 //- CPU time of a point and step where it cannot be measured, as nothing is
 //  there yet: figures of tutorials/waterInjection and damBreakObstacle3D [s]
-const scalar pointTime[2] = {2e-7, 4e-7};
+const scalar pointTime[2] = {1.7e-7, 4e-7};
 
 scalar cpuSeconds()
 {
@@ -184,12 +206,219 @@ void Foam::mpm::runForecast::findScene
 }
 
 
+void Foam::mpm::runForecast::takeStep
+(
+    Time& runTime,
+    materialPointSystem& points
+)
+{
+    points.particlesToGrid();
+    points.setDeltaT(runTime);
+    points.advance(runTime);
+    points.moveNodes();
+    points.gridToParticles();
+    points.relocate();
+    points.endStep(runTime);
+}
+
+
+Foam::scalar Foam::mpm::runForecast::enough
+(
+    const Time& runTime,
+    const scalar stepTime
+) const
+{
+    const scalar steps = (end_ - start_)/max(runTime.deltaTValue(), SMALL);
+    return min(longTime, enoughPart*steps*stepTime);
+}
+
+
+void Foam::mpm::runForecast::findBodies
+(
+    const Time& runTime,
+    const materialPointSystem& points
+)
+{
+    const bodies* all = points.bodiesPtr();
+    if (!all || !all->anyMoves()) return;
+
+    const scalar before = all->volumeInMesh(start_, runTime.value());
+    if (before > 0) bodyShare_ = all->volumeInMesh(start_, end_)/before;
+}
+
+
+Foam::scalar Foam::mpm::runForecast::nTimes
+(
+    const dictionary& dict,
+    const word& prefix
+) const
+{
+    word kind(dict.lookupOrDefault<word>(prefix + "Control", "timeStep"));
+    scalar interval = dict.lookupOrDefault<scalar>(prefix + "Interval", 1);
+    if (prefix == "write" && dict.found("outputControl"))
+    {
+        kind = dict.get<word>("outputControl");
+        interval = dict.lookupOrDefault<scalar>("outputInterval", 1);
+    }
+    const scalar start = max
+    (
+        start_, dict.lookupOrDefault<scalar>("timeStart", start_)
+    );
+    const scalar end = min(end_, dict.lookupOrDefault<scalar>("timeEnd", end_));
+    const scalar duration = max(scalar(0), end - start);
+    const scalar whole = max(scalar(1), interval);
+
+    if
+    (
+        kind == "adjustableRunTime" || kind == "adjustable"
+     || kind == "runTime"
+    )
+    {
+        return interval > 0 ? std::floor(duration/interval*(1 + 1e-9)) : 0;
+    }
+    if (kind == "timeStep") return std::floor(duration/meanDeltaT()/whole);
+    if (kind == "always") return duration/meanDeltaT();
+    if (kind == "writeTime" || kind == "outputTime") return nMade_/whole;
+    return kind == "onEnd";
+}
+
+
+void Foam::mpm::runForecast::findWriteInterval(const Time& runTime)
+{
+    auto take = [&](const dictionary& dict, const word& prefix)
+    {
+        const word kind
+        (
+            dict.lookupOrDefault<word>(prefix + "Control", "none")
+        );
+        const scalar interval =
+            dict.lookupOrDefault<scalar>(prefix + "Interval", 0);
+        if
+        (
+            (kind == "adjustableRunTime" || kind == "adjustable")
+         && interval > 0
+        )
+        {
+            writeInterval_ = min(writeInterval_, interval);
+        }
+    };
+    const dictionary& control = runTime.controlDict();
+    take(control, "write");
+    functionNeeds::forAllFunctions
+    (
+        runTime,
+        [&](const dictionary& dict, const functionNeeds&)
+        {
+            take(dict, "write");
+            take(dict, "execute");
+        }
+    );
+}
+
+
+void Foam::mpm::runForecast::findFunctions
+(
+    Time& runTime,
+    materialPointSystem& points
+)
+{
+    struct tried
+    {
+        autoPtr<functionObject> object;
+        scalar nWrites, nExecutions, writing, executing;
+    };
+    std::vector<tried> all;
+
+    scalar nFields = 0;
+    functionNeeds::forAllFunctions
+    (
+        runTime,
+        [&](const dictionary& dict, const functionNeeds& needs)
+        {
+            const wordList libraries
+            (
+                dict.lookupOrDefault<wordList>("libs", wordList())
+            );
+            const word type(dict.lookupOrDefault<word>("type", word::null));
+            if
+            (
+                !libraries.found("libmpmFunctionObjects.so")
+             || type == "materialPointHDF5"
+             || !dict.lookupOrDefault<bool>("enabled", true)
+            )
+            {
+                return;
+            }
+            dictionary silent(dict);
+            silent.set("writeToFile", false);
+            silent.set("log", false);
+            all.push_back
+            (
+                tried
+                {
+                    functionObject::New(dict.dictName(), runTime, silent),
+                    nTimes(dict, "write"), nTimes(dict, "execute"), 0, 0
+                }
+            );
+            if (needs.fields != functionNeeds::NO_FIELDS)
+            {
+                nFields = max(nFields, all.back().nWrites);
+            }
+        }
+    );
+    if (all.empty()) return;
+
+    scalar fields = 0;
+    label n = 0;
+    for (label trial = 0; trial < nFunctionTrials && !runTime.end(); ++trial)
+    {
+        takeStep(runTime, points);
+        const bool counts = trial > 0;
+        n += counts;
+
+        scalar begin = cpuSeconds();
+        auto passed = [&]()
+        {
+            const scalar now = cpuSeconds();
+            const scalar time = counts ? now - begin : 0;
+            begin = now;
+            return time;
+        };
+        if (nFields > 0)
+        {
+            for (materialPointCloud& cloud : points.clouds())
+            {
+                cloud.updateMeshFields();
+            }
+            fields += passed();
+        }
+        for (tried& f : all)
+        {
+            f.object->execute();
+            f.executing += passed();
+            f.object->write();
+            f.writing += passed();
+        }
+    }
+    if (!n) return;
+
+    functionTime_ += nFields*fields/n;
+    for (const tried& f : all)
+    {
+        functionTime_ += (f.nWrites*f.writing + f.nExecutions*f.executing)/n;
+    }
+}
+
+
 void Foam::mpm::runForecast::takeSteps
 (
     Time& runTime,
     materialPointSystem& points
 )
 {
+    const scalar startSpeed =
+        points.liquidPtr() ? points.liquidPtr()->globalMaxSpeed() : 0;
+
     // The first one allocates
     scalar begin = 0;
     DynamicList<scalar> deltaT;
@@ -204,18 +433,19 @@ void Foam::mpm::runForecast::takeSteps
         if (step >= fewestSteps)
         {
             const scalar used = cpuSeconds() - begin;
-            if (used > enoughTime && step >= enoughSteps) break;
-            if (used > 10*enoughTime || step >= 10*enoughSteps) break;
+            if
+            (
+                step >= enoughSteps
+             && used > enoughTime && used > enough(runTime, used/step)
+            )
+            {
+                break;
+            }
+            if (used > longTime || step >= mostSteps) break;
         }
         if (runTime.end()) break;
 
-        points.particlesToGrid();
-        points.setDeltaT(runTime);
-        points.advance(runTime);
-        points.moveNodes();
-        points.gridToParticles();
-        points.relocate();
-        points.endStep(runTime);
+        takeStep(runTime, points);
 
         deltaT.append(runTime.deltaTValue());
         limiter.append(points.limiter());
@@ -235,7 +465,8 @@ void Foam::mpm::runForecast::takeSteps
         }
     }
 
-    // Parts of the clouds, by their share of the time on the clock
+    // Parts of the clouds and of bodies, by their share of the time on the
+    // clock
     points.cost().stop();
     const costMeter& cost = points.cost();
     cloudTime_.setSize(clouds_.size(), 0);
@@ -254,7 +485,12 @@ void Foam::mpm::runForecast::takeSteps
                 cloudTime_[i] += cost.seconds(part)/all*stepTime_;
             }
         }
+        if (cost.name(part) == "bodies: geometry")
+        {
+            bodyTime_ += cost.seconds(part)/all*stepTime_;
+        }
     }
+    findBodies(runTime, points);
 
     const scalar h = points.grid().cells().minSpacing();
     for (const soilCloud* solid : points.solids())
@@ -266,6 +502,14 @@ void Foam::mpm::runForecast::takeSteps
         const waterCloud& liquid = *points.liquidPtr();
         soundSpeed_ = liquid.fluid().soundSpeed();
         flowSpeed_ = liquid.globalMaxSpeed();
+        if
+        (
+            flowSpeed_ - startSpeed
+          > falling*mag(points.g())*(runTime.value() - start_)
+        )
+        {
+            mixing_ = mixedTime;
+        }
         liquidDeltaT_ = maxCo_*h/(soundSpeed_ + flowSpeed_);
         usefulCo_ = min(usefulCo_, floor(100*liquid.scatteredDeltaT()/h
             *(soundSpeed_ + flowSpeed_))/100);
@@ -332,7 +576,12 @@ void Foam::mpm::runForecast::tryCase(Time& runTime)
     findScene(runTime, points);
     findInflow(mesh, points);
     takeSteps(runTime, points);
-    if (nTrial_ > 0) findOutput(runTime, mesh);
+    findWriteInterval(runTime);
+    if (nTrial_ > 0)
+    {
+        findOutput(runTime, mesh);
+        findFunctions(runTime, points);
+    }
 
     memInfo memory;
     rss_ = 1024.0*memory.update().rss();
@@ -357,7 +606,7 @@ Foam::scalar Foam::mpm::runForecast::meanPoints
 }
 
 
-Foam::scalar Foam::mpm::runForecast::meanDeltaT() const
+Foam::scalar Foam::mpm::runForecast::flowDeltaT() const
 {
     // As fast as its speed of sound was chosen for
     const scalar expected = 0.1*soundSpeed_;
@@ -370,6 +619,29 @@ Foam::scalar Foam::mpm::runForecast::meanDeltaT() const
         deltaT_,
         liquidDeltaT_*(soundSpeed_ + flowSpeed_)/(soundSpeed_ + expected)
     );
+}
+
+
+Foam::scalar Foam::mpm::runForecast::meanDeltaT() const
+{
+    const scalar deltaT = flowDeltaT();
+    return adjusts_ && writeInterval_ < GREAT
+      ? writeInterval_/std::ceil(writeInterval_/deltaT*(1 - 1e-9)) : deltaT;
+}
+
+
+Foam::scalar Foam::mpm::runForecast::meanStepTime() const
+{
+    scalar time = stepTime_ + bodyTime_*(bodyShare_ - 1);
+    forAll(clouds_, i)
+    {
+        const scalar later = liquid_[i] ? mixing_ : 1;
+        const scalar each =
+            points_[i] > 500
+          ? cloudTime_[i]/points_[i] : pointTime[nDim_ - 2];
+        time += (later*meanPoints(i, end_ - start_) - points_[i])*each;
+    }
+    return time;
 }
 
 
@@ -480,8 +752,13 @@ Foam::mpm::runForecast::runForecast
     capped_(false),
     soundSpeed_(0),
     flowSpeed_(0),
+    mixing_(1),
     stepTime_(0),
     nTrial_(0),
+    bodyTime_(0),
+    bodyShare_(1),
+    functionTime_(0),
+    writeInterval_(GREAT),
     nWrites_(0),
     nMade_(0),
     writeSize_(0)
@@ -525,22 +802,18 @@ void Foam::mpm::runForecast::report() const
     const scalar duration = end_ - start_;
     const scalar deltaT = meanDeltaT();
     const scalar steps = duration/deltaT;
-    scalar later = 0, now = 0, stepTime = stepTime_;
+    const scalar stepTime = meanStepTime();
+    scalar later = 0, now = 0;
     OStringStream names;
     forAll(clouds_, i)
     {
-        const scalar mean = meanPoints(i, duration);
-        const scalar each =
-            points_[i] > 500
-          ? cloudTime_[i]/points_[i] : pointTime[nDim_ - 2];
-        stepTime += (mean - points_[i])*each;
-        later += mean;
+        later += meanPoints(i, duration);
         now += points_[i];
         names << (i ? ", " : "") << clouds_[i] << ' ' << label(points_[i]);
     }
 
-    const scalar total =
-        steps*stepTime + nMade_*startTime_*writeSize_/max(startSize_, SMALL);
+    const scalar writing = nMade_*startTime_*writeSize_/max(startSize_, SMALL);
+    const scalar total = steps*stepTime + writing + functionTime_;
 
     Info<< "    points:    " << names.str().c_str();
     if (later > 1.01*now)
@@ -556,8 +829,18 @@ void Foam::mpm::runForecast::report() const
         << limiter_;
     if (deltaT < 0.99*deltaT_)
     {
-        Info<< " (" << digits(deltaT_).c_str() << " s at the start; for a flow"
-            << " of " << digits(0.1*soundSpeed_).c_str() << " m/s)";
+        Info<< " (" << digits(deltaT_).c_str() << " s at the start";
+        if (flowDeltaT() < 0.99*deltaT_)
+        {
+            Info<< "; for a flow of " << digits(0.1*soundSpeed_).c_str()
+                << " m/s";
+        }
+        if (deltaT < 0.99*flowDeltaT())
+        {
+            Info<< "; whole steps to times that are written, every "
+                << digits(writeInterval_).c_str() << " s";
+        }
+        Info<< ')';
     }
     Info<< nl
         << "    steps:     " << count(steps).c_str() << " to " << end_ << " s"
@@ -570,6 +853,14 @@ void Foam::mpm::runForecast::report() const
         Info<< ", " << digits(1e9*stepTime/max(later, scalar(1))).c_str()
             << " ns per point: " << nTrial_ << " steps of this case, timed"
             << " just now";
+    }
+    if (functionTime_ > 0.005*total)
+    {
+        Info<< "; function objects " << ::duration(functionTime_).c_str();
+    }
+    if (writing > 0.005*total)
+    {
+        Info<< "; output " << ::duration(writing).c_str();
     }
     Info<< nl
         << "    output:    " << label(nWrites_) << " times of "

@@ -225,6 +225,35 @@ Foam::scalar Foam::mpm::bodies::maxSpeed() const
 }
 
 
+Foam::scalar Foam::mpm::bodies::volumeInMesh
+(
+    const scalar from,
+    const scalar to
+) const
+{
+    const label nTimes = 100;
+    const boundBox& mesh = grid_.mesh().bounds();
+    scalar sum = 0;
+    for (const body& b : bodies_)
+    {
+        if (!b.motion().moves()) continue;
+        const boundBox now(b.bounds());
+        for (label i = 0; i < nTimes; ++i)
+        {
+            const scalar time = from + (i + 0.5)/nTimes*(to - from);
+            const vector way(b.motion().centreAt(time) - b.motion().centre());
+            const vector size
+            (
+                min(now.max() + way, mesh.max())
+              - max(now.min() + way, mesh.min())
+            );
+            if (cmptMin(size) > 0) sum += cmptProduct(size)/nTimes;
+        }
+    }
+    return sum;
+}
+
+
 size_t Foam::mpm::bodies::memory() const
 {
     size_t bytes = 0;

@@ -268,7 +268,31 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     if (solids_.size()) logBed(runTime);
     if (liquid_) logDensity();
     if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();
-    const string remaining(remaining_.line(runTime));
+    string remaining;
+    if (bodies_.valid() && bodies_->anyMoves())
+    {
+        scalar seconds = 0;
+        for (size_t i = 0; i < cost_.size(); ++i)
+        {
+            if (cost_.name(i) == "bodies: geometry")
+            {
+                seconds = cost_.seconds(i);
+            }
+        }
+        remaining = remaining_.line
+        (
+            runTime,
+            seconds,
+            [&](const scalar from, const scalar to)
+            {
+                return bodies_->volumeInMesh(from, to);
+            }
+        );
+    }
+    else
+    {
+        remaining = remaining_.line(runTime);
+    }
     if (remaining.size()) Info<< remaining.c_str() << nl;
     Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
         << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl

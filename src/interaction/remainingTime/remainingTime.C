@@ -11,7 +11,8 @@ License
 
 Foam::mpm::remainingTime::sample Foam::mpm::remainingTime::now
 (
-    const Time& runTime
+    const Time& runTime,
+    const scalar bodies
 ) const
 {
     const std::chrono::duration<double> elapsed
@@ -20,7 +21,8 @@ Foam::mpm::remainingTime::sample Foam::mpm::remainingTime::now
     );
     return sample
     {
-        runTime.value(), scalar(std::clock())/CLOCKS_PER_SEC, elapsed.count()
+        runTime.value(), scalar(std::clock())/CLOCKS_PER_SEC, elapsed.count(),
+        bodies
     };
 }
 
@@ -41,15 +43,20 @@ Foam::mpm::remainingTime::remainingTime()
 void Foam::mpm::remainingTime::start(const Time& runTime)
 {
     samples_.clear();
-    samples_.append(now(runTime));
+    samples_.append(now(runTime, 0));
 }
 
 
-Foam::string Foam::mpm::remainingTime::line(const Time& runTime)
+Foam::string Foam::mpm::remainingTime::line
+(
+    const Time& runTime,
+    const scalar bodies,
+    const load& loadOfBodies
+)
 {
     if (samples_.empty()) start(runTime);
 
-    const sample current(now(runTime));
+    const sample current(now(runTime, bodies));
     const scalar done = current.time - samples_[0].time;
     const scalar left = max(scalar(0), runTime.endTime().value() - current.time);
 
@@ -76,7 +83,19 @@ Foam::string Foam::mpm::remainingTime::line(const Time& runTime)
     const scalar passed = current.time - from.time;
     if (!(passed > 0)) return string();
 
-    const scalar ratio = left/passed;
+    scalar ratio = left/passed;
+    if (loadOfBodies && current.clock > from.clock && left > 0)
+    {
+        const scalar before = loadOfBodies(from.time, current.time);
+        const scalar ahead =
+            loadOfBodies(current.time, current.time + left);
+        const scalar share = min
+        (
+            (current.bodies - from.bodies)/(current.clock - from.clock),
+            scalar(1)
+        );
+        if (before > 0) ratio *= 1 - share*(1 - ahead/before);
+    }
     const scalar clock = ratio*(current.clock - from.clock);
 
     OStringStream os;

@@ -19,12 +19,6 @@ namespace mpm
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::point Foam::mpm::prescribedBody::centreAt(const scalar time) const
-{
-    return reference_ + path_->displacement(time);
-}
-
-
 Foam::tensor Foam::mpm::prescribedBody::rotationAt(const scalar time) const
 {
     return rotationOf(path_->rotation(time));
@@ -77,6 +71,12 @@ Foam::mpm::prescribedBody::prescribedBody
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::point Foam::mpm::prescribedBody::centreAt(const scalar time) const
+{
+    return reference_ + path_->displacement(time);
+}
+
 
 void Foam::mpm::prescribedBody::start(const scalar time)
 {
