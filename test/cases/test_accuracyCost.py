@@ -97,6 +97,28 @@ def testRichardson(figures):
         metric, [(0.1, 1.0)]), (None, None))
 
 
+def testRichardsonOfCourses(figures):
+    """Of a course in time only where it goes one way; one that goes to and fro
+    by smaller steps says nothing of what is left"""
+    metric = accuracyCost.Metric("gauge/waveGauge.dat:height0")
+    time = np.linspace(0, 1, 101)
+    exact = 1 + time
+
+    def left(shapes):
+        return accuracyCost.gridError(metric, [
+            (h, (time, exact + shape)) for h, shape in shapes])
+
+    found, order = left([(h, 0.5*h*time) for h in (0.4, 0.2, 0.1)])
+    figures.atMost("one way: order, distance to 1", abs(order - 1), 0.02)
+    figures.atMost("one way: error left, relative distance to the true one",
+                   abs(found/(0.5*0.1*0.5) - 1), 0.02)
+    wave = 0.01*np.sin(20*time)
+    found, order = left([(0.4, 4*wave), (0.2, -wave), (0.1, 0.5*wave)])
+    figures.equal("to and fro: order", order, None)
+    figures.atMost("to and fro: over the last change, distance to 1", abs(
+        found/np.mean(np.abs(1.5*wave)) - 1), 1e-9)
+
+
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
     case = dam(tmp_path_factory.mktemp("accuracyCost")/"dam")

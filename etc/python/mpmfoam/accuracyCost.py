@@ -129,10 +129,18 @@ class Metric:
             np.nanmean(np.abs(a[1])))
 
 
+# Part of its way, over three grids, that a course in time must come forward: a
+# number that goes one way comes forward by all of it. Less is a course that goes
+# to and fro, whose steps say nothing of what is left.
+FORWARD = 0.9
+
+
 def monotone(metric, a, b, c):
     """Do values of three grids go one way, by smaller steps"""
     if metric.isSeries:
-        return metric.distance(b, c) < metric.distance(a, b)
+        first, last = metric.distance(a, b), metric.distance(b, c)
+        return last < first and \
+            metric.distance(a, c) >= FORWARD*(first + last)
     return (a - b)*(b - c) > 0 and abs(b - c) < abs(a - b)
 
 
@@ -745,7 +753,7 @@ class Verdict:
                          enumerate(around) for b in around[:i]]
                 scatter = float(np.sqrt(np.mean(pairs)/2))/size
             self.parts[metric.name] = {
-                "value": value, "size": size, "order": order,
+                "exact": exact, "value": value, "size": size, "order": order,
                 "finest": last/size if last is not None else None,
                 "scatter": scatter,
                 "shift": {n: metric.distance(v, value[self.base.name])/size
@@ -758,6 +766,11 @@ class Verdict:
     def error(self, run):
         """The worst of the metrics"""
         return max(p["error"][run.name] for p in self.parts.values())
+
+    def errorOf(self, run):
+        """The same of a run that is not one of those that were judged"""
+        return max(m.distance(m.read(run.path), self.parts[m.name]["exact"])
+                   / self.parts[m.name]["size"] for m in self.metrics)
 
     def bound(self, run):
         """Error and its uncertainty, the worst of the metrics; the scatter
@@ -907,7 +920,8 @@ def listOf(allowed):
     return words
 
 
-def main():
+def parsed(words=None):
+    """The arguments; those of the command where none are given"""
     parser = argparse.ArgumentParser(
         prog="accuracyCost",
         description="What accuracy costs for a case: varies one factor at a "
@@ -935,15 +949,20 @@ def main():
                         "<case>/accuracyCost)")
     parser.add_argument("--evaluate", action="store_true",
                         help="run nothing")
-    a = parser.parse_args()
+    a = parser.parse_args(words)
+    if a.evaluate:
+        a.budget = 0
+    return a
+
+
+def main():
+    a = parsed()
     try:
         if not (Path(a.case)/"system"/"controlDict").is_file():
             raise AccuracyCostError(f"{a.case}: no system/controlDict")
         for command in ["setMaterialPoints", "mpmFoam"]:
             if not shutil.which(command):
                 raise AccuracyCostError(f"no {command} in PATH")
-        if a.evaluate:
-            a.budget = 0
         work(Study(a.case, a))
     except (AccuracyCostError, FoamFileError, study.RunError) as error:
         sys.exit(f"accuracyCost: {error}")
@@ -969,6 +988,13 @@ def usual(path):
 
 
 def work(owner):
+    verdict, checks = judged(owner)
+    report(owner, verdict, checks)
+
+
+def judged(owner):
+    """The verdict on all runs, made as far as the budget goes, and what was
+    recommended with other placements, by name"""
     if not owner.metrics:
         if not owner.do(owner.base()):
             owner.explore()             # says why
@@ -985,8 +1011,7 @@ def work(owner):
             again = owner.check(run)
             if again:
                 checks[run.name] = again
-    verdict = Verdict(owner, done + combined + list(checks.values()))
-    report(owner, verdict, checks)
+    return Verdict(owner, done + combined + list(checks.values())), checks
 
 
 if __name__ == "__main__":
