@@ -52,6 +52,24 @@ def openChannel(path, finer):
         study.setEntry(mesh, name, n*finer)
 
 
+def gateSlot(path, finer):
+    """That of validation/gateSlot, which lies over tutorials/damBreak"""
+    shutil.rmtree(path, ignore_errors=True)
+    for source in [REPOSITORY/"tutorials"/"damBreak",
+                   REPOSITORY/"validation"/"gateSlot"/"case"]:
+        for part in ["0.orig", "constant", "system"]:
+            if (source/part).is_dir():
+                shutil.copytree(
+                    source/part, path/part, dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("polyMesh"))
+    mesh = path/"system"/"blockMeshDict"
+    study.setEntry(mesh, "h", f"{0.01/finer:g}")
+    counts = {"nx0": 70, "nx1": 4, "nx2": 98, "nx3": 50,
+              "ny0": 5, "ny1": 5, "ny2": 15}
+    for name, n in counts.items():
+        study.setEntry(mesh, name, n*finer)
+
+
 def obstacle(path, finer):
     source = REPOSITORY/"tutorials"/"damBreakObstacle3D"
     shutil.rmtree(path, ignore_errors=True)
@@ -67,6 +85,8 @@ CASES = {
     **{f"openChannel_{n}": (openChannel, n, [
         "--endTime", "12", "--writeInterval", "0.25",
         "--gauges", "1", "2", "3.05"]) for n in (1, 2)},
+    **{f"gateSlot_{n}": (gateSlot, n, [
+        "--endTime", "0.4", "--writeInterval", "0.05"]) for n in (1, 2, 4)},
     "damBreakObstacle3D": (obstacle, 1, [
         "--endTime", "1", "--writeInterval", "0.05"])}
 
@@ -145,6 +165,43 @@ def levels(out):
             "mean of 9 to 12 s [m]; rms of depths over the largest; s", out)
 
 
+def jets(out):
+    rows = []
+    finest = None
+    for n in (4, 2, 1):
+        found = results(f"gateSlot_{n}")
+        if not found:
+            continue
+        table, known = found
+        # From the gate on, and before the end of the domain
+        gate, end = 0.74, 2.2
+        front = {c: table[f"front_{c}"] - gate
+                 for c in ("mpmFoam", "interFoam")}
+        free = (np.minimum(*front.values()) > 0.1) & (
+            np.maximum(*front.values()) < end - gate)
+        finest = finest or front
+        late = table["time"] > 0.19
+        speed = {c: np.polyfit(table["time"][late],
+                               table[f"front_{c}"][late], 1)[0]
+                 for c in front}
+        rows.append({
+            "cellsPerCell": n,
+            "apart": np.abs(front["mpmFoam"]/front["interFoam"] - 1)[
+                free].max(),
+            **{f"speed_{c}": s for c, s in speed.items()},
+            "mpmFoamToFinest": np.abs(
+                front["mpmFoam"]/finest["mpmFoam"] - 1)[free].max(),
+            "interFoamToFinest": np.abs(
+                front["interFoam"]/finest["interFoam"] - 1)[free].max(),
+            "rms": known["profileDifferenceRms"],
+            "cpuTime_mpmFoam": known["cpuTime_mpmFoam"],
+            "cpuTime_interFoam": known["cpuTime_interFoam"]})
+    if rows:
+        put("gateSlot", rows[::-1], "differences of the front over its "
+            "distance from the gate, largest of all times; rms of depths over "
+            "the largest; s", out)
+
+
 def three(out):
     found = results("damBreakObstacle3D")
     if found:
@@ -180,6 +237,7 @@ def main():
     out = {}
     fronts(out)
     levels(out)
+    jets(out)
     three(out)
     metrics.writeMetrics(RESULTS/"metrics.json", out)
 

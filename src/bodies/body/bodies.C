@@ -236,7 +236,6 @@ Foam::scalar Foam::mpm::bodies::volumeInMesh
     scalar sum = 0;
     for (const body& b : bodies_)
     {
-        if (!b.motion().moves()) continue;
         const boundBox now(b.bounds());
         for (label i = 0; i < nTimes; ++i)
         {
