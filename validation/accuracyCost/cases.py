@@ -36,6 +36,9 @@ def tutorial(name):
 
 def weirOverflow(path):
     """OpenFOAM's own, with a gauge in the reservoir and what leaves"""
+    if not EXAMPLES.is_dir():
+        sys.exit(f"cases.py: no {EXAMPLES}: Debian's package "
+                 "openfoam-examples has it")
     source = path.with_name(path.name + "_interFoam")
     shutil.rmtree(source, ignore_errors=True)
     shutil.copytree(EXAMPLES/"RAS"/"weirOverflow", source)

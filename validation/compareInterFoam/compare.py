@@ -29,6 +29,9 @@ def copied(source, path):
 
 def damBreak(path, finer):
     """OpenFOAM's own, with so many cells per cell"""
+    if not EXAMPLES.is_dir():
+        sys.exit(f"compare.py: no {EXAMPLES}: Debian's package "
+                 "openfoam-examples has it")
     copied(EXAMPLES/"laminar"/"damBreak"/"damBreak", path)
     file = path/"system"/"blockMeshDict"
     file.write_text(re.sub(
@@ -239,7 +242,8 @@ def main():
     levels(out)
     jets(out)
     three(out)
-    metrics.writeMetrics(RESULTS/"metrics.json", out)
+    if out:
+        metrics.writeMetrics(RESULTS/"metrics.json", out)
 
 
 if __name__ == "__main__":
