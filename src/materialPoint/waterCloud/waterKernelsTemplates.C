@@ -30,7 +30,7 @@ class waterKernelsFor
     struct
     {
         nodeField<nodeVector> sum, change, field;
-        std::vector<scalar> slopes[2];
+        std::vector<scalar> slopes;
     }
     diffusion_;
 
@@ -85,25 +85,35 @@ class waterKernelsFor
         return m;
     }
 
-    //- Call op(node, offsets to its neighbours) for the active nodes. Nodes on
-    //  the rim of the box, which points of this rank do not reach, have none.
+    //- Call op(first node, number of nodes, offsets to the neighbours) for
+    //  groups of up to nLanes active nodes in a row. Nodes on the rim of the
+    //  box, which points of this rank do not reach, have no neighbours.
     template<class Op>
     void forNeighbourhoods(const Op& op) const
     {
         static const std::vector<label> none;
         const label rim = neighbours_.back();
         const label beyond = label(cloud_.nodes_.saturation.size()) - rim;
-        this->forActiveNodes
-        (
-            [&](const label i)
+        for (const auto& range : cloud_.order_.nodeRanges())
+        {
+            for (label i = range.first; i < range.second;)
             {
-                op(i, i >= rim && i < beyond ? neighbours_ : none);
+                const label n = min(label(nLanes), range.second - i);
+                if (i >= rim && i + n <= beyond)
+                {
+                    op(i, n, neighbours_);
+                    i += n;
+                }
+                else
+                {
+                    op(i, 1, i >= rim && i < beyond ? neighbours_ : none);
+                    ++i;
+                }
             }
-        );
+        }
     }
 
-    //- Volume of the water over that of the pores, and the share of the
-    //  pressure that follows from the most of it nearby: see waterMaterial
+    //- Volume of the water over that of the pores
     void saturations()
     {
         waterCloud& c = cloud_;
@@ -111,7 +121,6 @@ class waterKernelsFor
             c.coupling_
           ? c.coupling_->inversePoreVolume : c.boundary_.inverseVolume();
         std::vector<scalar>& S = c.nodes_.saturation;
-        std::vector<scalar>& filling = c.nodes_.filling;
 
         this->forActiveNodes
         (
@@ -122,52 +131,75 @@ class waterKernelsFor
             if (c.cellQuadrature_) waterSaturation_ = S;
             c.addBodySaturation(inversePoreVolume);
         }
-        forNeighbourhoods
-        (
-            [&](const label i, const std::vector<label>& neighbours)
-            {
-                scalar most = S[i];
-                for (const label n : neighbours)
-                {
-                    if (most >= waterCloud::fullSaturation) break;
-                    most = max(most, S[i + n]);
-                }
-                filling[i] = waterCloud::filling(most);
-            }
-        );
     }
 
-    //- How much the volume at each node is off: inside the water any error but
-    //  what a plane surface nearby explains, elsewhere only an excess
-    void volumeErrors()
+    //- The share of the pressure that follows from the most of the saturation
+    //  nearby; with correction how much the volume at each node is off: inside
+    //  the water any error but what a plane surface nearby explains, elsewhere
+    //  only an excess. See waterMaterial
+    template<bool correction>
+    void fillings()
     {
         waterCloud& c = cloud_;
         const std::vector<scalar>& inverseVolume = c.boundary_.inverseVolume();
         const std::vector<scalar>& S = c.nodes_.saturation;
+        std::vector<scalar>& filling = c.nodes_.filling;
         nodalFields& nodes = c.nodes_;
 
+        const auto load =
+            [](const std::vector<scalar>& from, const label i, const label n)
+            {
+                if (n == nLanes) return loadLanes(from.data() + i);
+                lanes v{};
+                for (label l = 0; l < n; ++l) v[l] = from[i + l];
+                return v;
+            };
+
+        // Most and least without branches, which noise would decide
         forNeighbourhoods
         (
-            [&](const label i, const std::vector<label>& neighbours)
+            [&]
+            (
+                const label first,
+                const label n,
+                const std::vector<label>& neighbours
+            )
             {
-                // Nodes behind walls have no control volume
-                scalar least = neighbours.size() ? S[i] : 0;
-                if (least > waterCloud::insideSaturation)
+                const lanes zero{};
+                const lanes own = load(S, first, n);
+                lanes most = own;
+                lanes least = neighbours.size() ? own : zero;
+                for (const label offset : neighbours)
                 {
-                    for (const label n : neighbours)
-                    {
-                        const scalar s = S[i + n];
-                        if (s < least && inverseVolume[i + n] > 0) least = s;
-                    }
+                    const lanes s = load(S, first + offset, n);
+                    most = maxLanes(most, s);
+
+                    // Nodes behind walls have no control volume
+                    const lanes inverse = load(inverseVolume, first + offset, n);
+                    least = minLanes
+                        (least, inverse > zero ? s : allLanes(GREAT));
                 }
-                nodes.volumeError(i) =
-                    least <= waterCloud::insideSaturation
-                  ? max(0.0, S[i] - waterCloud::outsideSaturation)
-                  : S[i] >= 1
-                  ? S[i] - 1
-                  : min(0.0, S[i] - 1 + surfaceDefect<Shape>(least));
+                for (label l = 0; l < n; ++l)
+                {
+                    const label i = first + l;
+                    filling[i] = waterCloud::filling(most[l]);
+                    if constexpr (!correction) continue;
+
+                    if (least[l] <= waterCloud::insideSaturation)
+                    {
+                        nodes.volumeError(i) =
+                            max(0.0, own[l] - waterCloud::outsideSaturation);
+                        continue;
+                    }
+                    const scalar error = own[l] - 1;
+                    const scalar defect = surfaceDefect<Shape>(least[l]);
+                    nodes.volumeError(i) =
+                        defect > 0 && error < 0
+                      ? min(0.0, error + defect) : error;
+                }
             }
         );
+        if constexpr (!correction) return;
 
         // The gap behind the last layer of an inlet is no error
         for (const label i : c.boundary_.inflowNodes())
@@ -248,27 +280,18 @@ class waterKernelsFor
         );
     }
 
-    //- Mean of a scalar of the points by mass, on the mesh
-    void meanOnMesh(const scalar* values, volScalarField& mean)
+    //- Mean of a scalar of the points on the mesh: op(p, weighted, weight)
+    //  sets the scalar times the weight of points, and the weight
+    template<class Op>
+    void meanOnMesh(const Op& op, volScalarField& mean)
     {
-        waterCloud& c = cloud_;
-        nodeField<nodeVector>& sum = c.nodes_.force;
+        nodeField<nodeVector>& sum = cloud_.nodes_.force;
 
         this->sumToNodes(makeMaterial(0));
-        const pointView<dim> points(c.view<dim>());
-        kernels_.scalarsToGrid
-        (
-            points,
-            [&](const label p, lanes& weighted, lanes& weight)
-            {
-                weight = loadLanes(points.mass + p);
-                weighted = weight*loadLanes(values + p);
-            },
-            sum
-        );
-        c.grid_.exchange().sum(sum);
+        kernels_.scalarsToGrid(cloud_.view<dim>(), op, sum);
+        cloud_.grid_.exchange().sum(sum);
 
-        mean.primitiveFieldRef() = 0;
+        mean = dimensionedScalar(mean.dimensions(), Zero);
         this->cellMeans
         (
             [&](const label i) { return volume(i); },
@@ -277,16 +300,16 @@ class waterKernelsFor
                 const label celli,
                 const label n,
                 const label* node,
-                const scalar* weight
+                const scalar* share
             )
             {
-                scalar weighted = 0, mass = 0;
+                scalar weighted = 0, weight = 0;
                 for (label t = 0; t < n; ++t)
                 {
-                    weighted += weight[t]*sum[node[t]][0];
-                    mass += weight[t]*sum[node[t]][1];
+                    weighted += share[t]*sum[node[t]][0];
+                    weight += share[t]*sum[node[t]][1];
                 }
-                if (mass > 0) mean[celli] = weighted/mass;
+                if (weight > 0) mean[celli] = weighted/weight;
             }
         );
         mean.correctBoundaryConditions();
@@ -351,9 +374,10 @@ public:
         saturations();
         if (c.settings_.volumeCorrection)
         {
-            volumeErrors();
+            fillings<true>();
             c.correctBasins(deltaT);
         }
+        else fillings<false>();
 
         c.startCost("stress and forces");
         if (c.cellQuadrature_) findCellPressures();
@@ -460,37 +484,43 @@ public:
         );
         c.grid_.exchange().sum(sum);
 
-        for (int s = 0; s < 2; ++s)
-        {
-            this->forActiveNodes
-            (
-                [&](const label i)
+        this->forActiveNodes
+        (
+            [&](const label i)
+            {
+                const scalar m = c.nodes_.mass(i);
+                for (int s = 0; s < 2; ++s)
                 {
-                    const scalar m = c.nodes_.mass(i);
-                    field[i][dim] = m > 0 ? sum[i][s]/m : 0;
+                    field[i][s] = m > 0 ? sum[i][s]/m : 0;
                 }
-            );
-            slopes[s].resize(dim*stride);
-            scalar* slope = slopes[s].data();
-            kernels_.scalarToPoints
+            }
+        );
+        const auto slope = [&, stride](const int s, const int d)
+        {
+            return slopes.data() + (dim*s + d)*stride;
+        };
+        slopes.resize(2*dim*stride);
+        kernels_.scalarsToPoints
+        (
+            points,
+            field,
+            [&]
             (
-                points,
-                field,
-                [&]
-                (
-                    const label p,
-                    const laneMask& valid,
-                    const lanes&,
-                    const lanes (&gradient)[dim]
-                )
+                const label p,
+                const laneMask& valid,
+                const lanes (&)[dim + 1],
+                const lanes (&gradient)[dim + 1][dim]
+            )
+            {
+                for (int s = 0; s < 2; ++s)
                 {
                     for (int d = 0; d < dim; ++d)
                     {
-                        storeLanes(slope + d*stride + p, gradient[d], valid);
+                        storeLanes(slope(s, d) + p, gradient[s][d], valid);
                     }
                 }
-            );
-        }
+            }
+        );
 
         kernels_.fluxesToGrid
         (
@@ -503,8 +533,7 @@ public:
                     const lanes D = m*loadLanes(diffusivities[s] + p);
                     for (int d = 0; d < dim; ++d)
                     {
-                        flux[d][s] =
-                            D*loadLanes(slopes[s].data() + d*stride + p);
+                        flux[d][s] = D*loadLanes(slope(s, d) + p);
                     }
                 }
             },
@@ -513,36 +542,38 @@ public:
         c.grid_.exchange().sum(change);
 
         // What falls does so as if implicit: positive whatever the step
-        for (int s = 0; s < 2; ++s)
-        {
-            this->forActiveNodes
-            (
-                [&](const label i)
+        this->forActiveNodes
+        (
+            [&](const label i)
+            {
+                for (int s = 0; s < 2; ++s)
                 {
                     const scalar had = sum[i][s];
                     const scalar gain =
                         had > 0 ? -deltaT*change[i][s]/had : 0;
-                    field[i][dim] = gain > 0 ? 1 + gain : 1/(1 - gain);
+                    field[i][s] = gain > 0 ? 1 + gain : 1/(1 - gain);
                 }
-            );
-            scalar* value = values[s];
-            kernels_.scalarToPoints
+            }
+        );
+        kernels_.scalarsToPoints
+        (
+            points,
+            field,
+            [&]
             (
-                points,
-                field,
-                [&]
-                (
-                    const label p,
-                    const laneMask& valid,
-                    const lanes& factor,
-                    const lanes (&)[dim]
-                )
+                const label p,
+                const laneMask& valid,
+                const lanes (&factor)[dim + 1],
+                const lanes (&)[dim + 1][dim]
+            )
+            {
+                for (int s = 0; s < 2; ++s)
                 {
-                    storeLanes
-                        (value + p, loadLanes(value + p)*factor, valid);
+                    scalar* value = values[s] + p;
+                    storeLanes(value, loadLanes(value)*factor[s], valid);
                 }
-            );
-        }
+            }
+        );
     }
 
 
@@ -551,17 +582,22 @@ public:
         waterCloud& c = cloud_;
         for (auto& [column, mean] : c.meshMeans_)
         {
-            meanOnMesh(c.points_.column(column), *mean);
+            const scalar* mass = c.points_.column(c.mass_);
+            const scalar* values = c.points_.column(column);
+            meanOnMesh
+            (
+                [=](const label p, lanes& weighted, lanes& weight)
+                {
+                    weight = loadLanes(mass + p);
+                    weighted = weight*loadLanes(values + p);
+                },
+                *mean
+            );
         }
 
-        nodeField<nodeVector>& pressure = c.nodes_.force;
         const waterMaterial<dim> m(makeMaterial(0));
-
-        // Mean pressure by volume, in the slots 0 (sum) and 1 (weight)
-        this->sumToNodes(m);
-        kernels_.scalarsToGrid
+        meanOnMesh
         (
-            c.view<dim>(),
             [&](const label p, lanes& pV, lanes& V)
             {
                 V = m.volume(p);
@@ -571,32 +607,8 @@ public:
                     allLanes(c.minPressure_)
                 );
             },
-            pressure
+            c.p_
         );
-        c.grid_.exchange().sum(pressure);
-
-        c.p_ = dimensionedScalar(dimPressure, Zero);
-        this->cellMeans
-        (
-            [&](const label i) { return volume(i); },
-            [&]
-            (
-                const label celli,
-                const label n,
-                const label* node,
-                const scalar* weight
-            )
-            {
-                scalar pV = 0, V = 0;
-                for (label t = 0; t < n; ++t)
-                {
-                    pV += weight[t]*pressure[node[t]][0];
-                    V += weight[t]*pressure[node[t]][1];
-                }
-                if (V > 0) c.p_[celli] = pV/V;
-            }
-        );
-        c.p_.correctBoundaryConditions();
     }
 };
 
