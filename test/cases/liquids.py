@@ -68,6 +68,59 @@ class Channel:
         return (p.mass*p.U[:, 0]).sum()/p.totalMass/self.mean()
 
 
+class BedChannel(Channel):
+    """The same over grains of diameter d that stay where they are, ks = 2.5 d.
+    The surface lies rise of a cell above a row of nodes"""
+
+    def __init__(self, cells=20, d=1e-3, rise=0, placement="regular",
+                 rows=5, **entries):
+        super().__init__("kEpsilon", cells=cells, ks=2.5*d, **entries)
+        h, setup = self.h, self.setup
+        self.bed = (rows + rise)*h
+        level = self.bed + self.depth
+        setup.cells = (4, rows + cells + 4)
+        setup.sides.pop("ymin")
+        setup.regions = {
+            "pores": box((0, 0), (10, self.bed), pressure="hydrostatic",
+                         level=level),
+            "channel": hydrostatic((0, self.bed), (10, level))}
+        setup.soil = {"constitutiveModel": "rigidSkeleton",
+                      "rigidSkeletonCoeffs": {
+                          "rhoS": 2650, "d": d, "e0": 0.7}}
+        setup.soilRegions = {"bed": box((0, 0), (10, self.bed))}
+        setup.soilWall = "slip"
+        setup.placement = {"placement": placement}
+
+    def profile(self, y):
+        """By height over the floor, or with depths alone over the bed"""
+        return super().profile(np.maximum(y, 0))
+
+    def start(self, path, end, writes=2):
+        case = self.setup.until(end, end/writes).write(path).prepare()
+        x = case.case.cloudField("0", "water", "x")
+        U = np.zeros_like(x)
+        U[:, 0] = self.profile(x[:, 1] - self.bed)
+        setField(case, "U", U)
+        return case
+
+    def meanOf(self, case, time=None):
+        p = case.points(time)
+        over = p.x[:, 1] > self.bed
+        return ((p.mass*p.U[:, 0])[over].sum()/p.mass[over].sum()
+                / self.mean())
+
+    def stressOf(self, case, first, last):
+        """Mean stress on the bed between two times over rho u*^2, from the
+        momentum of the water"""
+        momentum = [(p.mass*p.U[:, 0]).sum() for p in
+                    (case.points(t) for t in (first, last))]
+        mass = case.points(last).totalMass
+        area = 4*self.h*self.h
+        lost = (mass*self.uStar**2/self.depth
+                - (momentum[1] - momentum[0])/(float(last) - float(first)))
+        return lost/area/(RHO*self.uStar**2)
+
+
 def binghamGap(cells=16, model="BinghamPapanastasiou", m=10, water=None):
     """A Bingham liquid between plates 0.1 m apart, mu 1 Pa s, a gradient of
     400 Pa/m: the stress at the plates is 20 Pa, the liquid yields at 8 Pa.

@@ -10,6 +10,7 @@
 #include "../bedLoadModel/MeyerPeterMueller/MeyerPeterMueller.C"
 #include "../bedLoadModel/WongParker/WongParker.C"
 #include "../bedSurface/bedSurface.C"
+#include "../bedWall/bedWall.C"
 #include "../erosionCriterion/erosionCriterion/erosionCriterion.C"
 #include "../erosionCriterion/Shields/Shields.C"
 #include "../erosionCriterion/vanRijn/vanRijn.C"

@@ -63,6 +63,7 @@ void Foam::mpm::waterSoilInteraction::applyDrag
     const nodalFields& water = water_.nodes();
     nodeField<nodeVector>& vs = soil_.nodes().velocity;
     nodeField<nodeVector>& vw = water_.nodes().velocity;
+    const bedWall* wall = wall_.valid() ? wall_.get() : nullptr;
 
     for (label k = 0; k < n; ++k)
     {
@@ -70,9 +71,20 @@ void Foam::mpm::waterSoilInteraction::applyDrag
         const scalar perWater = 1/water.mass(i);
         const scalar perSoil = held ? 0 : 1/soil.mass(i);
         const scalar factor = deltaT*bulkVolume_[k]*(perWater + perSoil);
-        const scalar reduced =
-            (1 - keptPart(factor, k))/(perWater + perSoil);
+        const scalar part = 1 - keptPart(factor, k);
+        const scalar reduced = part/(perWater + perSoil);
 
+        if (wall && wall->slips(i))
+        {
+            const nodeVector impulse = wallImpulse
+                (i, vw[i] - vs[i], 1/(perWater + perSoil), part, deltaT);
+            for (label d = 0; d < dim; ++d)
+            {
+                vw[i][d] -= perWater*impulse[d];
+                vs[i][d] += perSoil*impulse[d];
+            }
+            continue;
+        }
         for (label d = 0; d < dim; ++d)
         {
             const scalar impulse = reduced*(vw[i][d] - vs[i][d]);
@@ -80,6 +92,58 @@ void Foam::mpm::waterSoilInteraction::applyDrag
             vs[i][d] += perSoil*impulse;
         }
     }
+}
+
+
+Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallImpulse
+(
+    const label node,
+    const nodeVector& dv,
+    const scalar mass,
+    const scalar part,
+    const scalar deltaT
+) const
+{
+    const label dim = grid_.nDim();
+    const nodeVector& normal = wall_->normal(node);
+    scalar across = 0;
+    for (label d = 0; d < dim; ++d) across += dv[d]*normal[d];
+    nodeVector along = dv - across*normal;
+    scalar speedSqr = 0;
+    for (label d = 0; d < dim; ++d) speedSqr += sqr(along[d]);
+
+    // Against the velocity that is left
+    const scalar x =
+        deltaT*water_.fluid().rho0()*wall_->shear(node)
+       /(mass*max(std::sqrt(speedSqr), VSMALL));
+    return mass*(part*across*normal + x/(1 + x)*along);
+}
+
+
+void Foam::mpm::waterSoilInteraction::makeWall()
+{
+    water_.setBed(nullptr);
+    wall_.clear();
+    const scalar factor = water_.bedRoughness();
+    if (!(factor > 0) || !drag_->active()) return;
+
+    const soilModel& model = soil_.model();
+    const weaklyCompressibleNewtonian& fluid = water_.fluid();
+
+    // Per mass of pore water, twice: k is a square
+    const scalar solid = 1/(1 + model.e0()), still = 0;
+    scalar a = 0, b = 0;
+    drag_->coefficients(1, &solid, &still, &a, &b);
+    const scalar perMass = 2/(fluid.rho0()*(1 - solid));
+    wall_.reset
+    (
+        new bedWall
+        (
+            grid_, fields_, water_.boundary(), factor*model.d(),
+            fluid.mu()/fluid.rho0(), perMass*a, perMass*b
+        )
+    );
+    water_.setBed(&wall_->fields());
 }
 
 
@@ -362,8 +426,12 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                 }
                 push[3] = waterVolume(i);
 
+                const scalar resistance =
+                    bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr));
                 nodeVector drag =
-                    bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr))*dv;
+                    wall_.valid() && wall_->slips(i)
+                  ? wallImpulse(i, dv, GREAT, resistance/GREAT, 1)
+                  : resistance*dv;
                 drag[3] = min(e*solidVolume(i), waterVolume(i));
                 set(i, drag, push);
             }
@@ -481,6 +549,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     readBedLoad(all.properties, all.strictKeywords);
 
     makeNodes();
+    makeWall();
 }
 
 
@@ -489,6 +558,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
 void Foam::mpm::waterSoilInteraction::rebuild()
 {
     makeNodes();
+    makeWall();
     if (surface_.valid())
     {
         surface_.reset(new bedSurface(grid_, fields_, water_.boundary()));
@@ -604,6 +674,21 @@ void Foam::mpm::waterSoilInteraction::startNodes()
         }
     );
     fields_.contact = !nodes_.empty();
+
+    if (wall_.valid())
+    {
+        cost_.start("bed as a wall");
+        const scalar perBed = 1 + soil_.model().e0();
+        wall_->update
+        (
+            [&](const label i)
+            {
+                return perBed*solidVolume(i)*inverseVolume[i];
+            },
+            soil,
+            water
+        );
+    }
     cost_.stop();
 }
 
@@ -819,6 +904,14 @@ void Foam::mpm::waterSoilInteraction::effects(effectsTable& table) const
     (
         "  drag", drag_->active(),
         drag_->type() + (mixedGrains_ ? " of the mass-weighted diameter" : "")
+    );
+    table.add
+    (
+        "  bed as a wall", wall_.valid(),
+        wall_.valid()
+      ? "ks " + Foam::name(wall_->fields().ks) + " m, stress of the law of the"
+        " wall on its surface"
+      : string("turbulence kEpsilon")
     );
     table.add
     (

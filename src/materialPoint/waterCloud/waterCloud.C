@@ -4,6 +4,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "waterCloud.H"
+#include "bedFields.H"
 #include "bodyWall.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
@@ -149,6 +150,47 @@ void Foam::mpm::waterCloud::findPorosities()
 }
 
 
+void Foam::mpm::waterCloud::findBed()
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = grid_.nDim();
+    bedDistance_.resize(size());
+    bedFrictionVelocity_.resize(size());
+    for (label p = 0; p < size(); ++p)
+    {
+        const label cell = points_.cell()[p];
+        const index3 lower = grid_.coordinate(cell);
+        scalar f[3];
+        for (label d = 0; d < nDim; ++d)
+        {
+            f[d] = (x(d)[p] - cells.origin(d))/cells.spacing(d)
+              - (lower[d] + grid_.lower(d));
+        }
+        scalar y = 0, friction = 0, weights = 0;
+        for (label corner = 0; corner < (1 << nDim); ++corner)
+        {
+            label node = cell;
+            scalar weight = 1;
+            for (label d = 0; d < nDim; ++d)
+            {
+                const label upper = (corner >> d) & 1;
+                weight *= upper ? f[d] : 1 - f[d];
+                node += upper*grid_.stride(d);
+            }
+            // Beyond what the nodes know
+            y += weight*min(bed_->distance[node], 2.5*cells.minSpacing());
+            if (bed_->frictionVelocity[node] > 0)
+            {
+                friction += weight*bed_->frictionVelocity[node];
+                weights += weight;
+            }
+        }
+        bedDistance_[p] = y;
+        bedFrictionVelocity_[p] = weights > 0 ? friction/weights : 0;
+    }
+}
+
+
 void Foam::mpm::waterCloud::findMaxViscosity()
 {
     maxNut_ = 0;
@@ -212,6 +254,13 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
         {
             findPorosities();
             p.porosity = porosity_.data();
+        }
+        if (bed_)
+        {
+            findBed();
+            p.bed = bed_;
+            p.bedDistance = bedDistance_.data();
+            p.bedFrictionVelocity = bedFrictionVelocity_.data();
         }
         turbulence_->correct
             (deltaT, fluid_.mu()/fluid_.rho0(), p, *kernels_, nut);
@@ -564,6 +613,7 @@ Foam::mpm::waterCloud::waterCloud
       ? points_.add("nut", pointStorage::scalarValue)
       : -1
     ),
+    bed_(nullptr),
     maxNut_(0),
     globalMaxNut_(0),
     p_

@@ -34,6 +34,16 @@ class waterKernelsFor
     }
     diffusion_;
 
+    //- Of filterBesideBed(): masses of some points, means over the bed, in it,
+    //  and their masses; velocities of points in the bed
+    struct
+    {
+        std::vector<scalar> mass;
+        nodeField<nodeVector> means[3];
+        std::vector<scalar> own;
+    }
+    parted_;
+
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
 
@@ -315,6 +325,76 @@ class waterKernelsFor
         mean.correctBoundaryConditions();
     }
 
+    //- As filter(), but the second projection of the points over a bed and
+    //  of those in it is by their own nodal means: else each pulse would carry
+    //  momentum into the bed, several times what friction does. The
+    //  momentum of both stays; what both grid and own means resolve does.
+    void filterBesideBed(const scalar deltaT)
+    {
+        waterCloud& c = cloud_;
+        if (!c.transfer_->advance(deltaT)) return;
+
+        c.cost_.start("XPIC filter");
+        const label n = c.size();
+        const size_t nNodes = c.grid_.nNodes();
+        pointView<dim> points(c.view<dim>());
+        auto inBed = [&](const label p) { return c.bedDistance_[p] < 0; };
+
+        auto& [mass, means, own] = parted_;
+        for (int part = 0; part < 2; ++part)
+        {
+            mass.assign(n + nLanes, 0);
+            for (label p = 0; p < n; ++p)
+            {
+                if (inBed(p) == (part == 1)) mass[p] = c.mass()[p];
+            }
+            pointView<dim> some(points);
+            some.mass = mass.data();
+            nodeField<nodeVector>& mean = means[part];
+            nodeField<nodeVector>& sum = means[2];
+            mean.assign(nNodes, nodeVector{});
+            sum.assign(nNodes, nodeVector{});
+            kernels_.scalarsToGrid
+            (
+                some,
+                [&](const label p, lanes& m, lanes&)
+                {
+                    m = loadLanes(some.mass + p);
+                },
+                sum
+            );
+            kernels_.velocityToGrid(some, mean);
+            c.grid_.exchange().sum(sum);
+            c.grid_.exchange().sum(mean);
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    mean[i] *= (sum[i][0] > 0 ? 1/sum[i][0] : 0);
+                }
+            );
+            c.boundary_.constrain(mean, true);
+        }
+
+        // To all points those of the bed, kept aside, then those over it
+        const bool affine = c.transfer_->affine();
+        kernels_.gridToVelocity(points, means[1]);
+        own.clear();
+        auto forComponents = [&](const auto& op)
+        {
+            for (label p = 0; p < n; ++p)
+            {
+                if (!inBed(p)) continue;
+                for (int d = 0; d < dim; ++d) op(points.v[d][p]);
+                for (int d = 0; affine && d < dim*dim; ++d) op(points.C[d][p]);
+            }
+        };
+        forComponents([&](scalar& value) { own.push_back(value); });
+        kernels_.gridToVelocity(points, means[0]);
+        size_t next = 0;
+        forComponents([&](scalar& value) { value = own[next++]; });
+    }
+
     //- Stress of the points, with or without a viscosity of their own
     template<bool eddy>
     void stressOfPoints(const scalar deltaT)
@@ -394,7 +474,8 @@ public:
 
         this->exchangeForces();
         if (c.bodies_) c.pressAtBodies();
-        this->filter(deltaT);
+        if (c.bed_) filterBesideBed(deltaT);
+        else this->filter(deltaT);
 
         if (c.coupling_ && c.coupling_->contact)
         {

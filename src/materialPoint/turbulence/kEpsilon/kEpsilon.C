@@ -6,6 +6,7 @@ License
 #include "kEpsilon.H"
 #include "dictionaryEntries.H"
 #include "addToRunTimeSelectionTable.H"
+#include "bedFields.H"
 #include "wallLaw.H"
 #include "lanes.H"
 #include <cmath>
@@ -39,6 +40,10 @@ Foam::mpm::kEpsilon::kEpsilon
     C2_(readBoundedOrDefault(coeffs, "C2", dimless, 1.92, 0, 10)),
     sigmak_(readBoundedOrDefault(coeffs, "sigmak", dimless, 1.0, 0, 10)),
     sigmaEps_(readBoundedOrDefault(coeffs, "sigmaEps", dimless, 1.3, 0, 10)),
+    bedRoughness_
+    (
+        readBoundedOrDefault(coeffs, "bedRoughness", dimless, 2.5, 0, GREAT)
+    ),
     walls_(grid, U),
     k_(storage.add("k", pointStorage::scalarValue)),
     epsilon_(storage.add("epsilon", pointStorage::scalarValue))
@@ -46,7 +51,10 @@ Foam::mpm::kEpsilon::kEpsilon
     checkKeywords
     (
         coeffs,
-        {"k", "epsilon", "Cmu", "C1", "C2", "sigmak", "sigmaEps"},
+        {
+            "k", "epsilon", "Cmu", "C1", "C2", "sigmak", "sigmaEps",
+            "bedRoughness"
+        },
         strictKeywords
     );
 }
@@ -111,14 +119,38 @@ void Foam::mpm::kEpsilon::react
     // are then 9e-14 m2/s
     constexpr scalar least = 1e-12;
 
+    auto setLaw = [&]
+    (
+        const label i,
+        const scalar frictionVelocity,
+        const scalar y,
+        const scalar ks
+    )
+    {
+        const scalar uStar = max(frictionVelocity, VSMALL);
+        k[i] = max(sqr(uStar)/std::sqrt(Cmu_), least);
+        epsilon[i] = max(pow3(uStar)/(wallLaw::kappa*(y + ks/30)), least);
+    };
+
     for (label i = 0; i < p.n; ++i)
     {
+        const scalar bedDistance = p.bed ? p.bedDistance[i] : GREAT;
+        if (bedDistance < 0)
+        {
+            // Drag of the grains; k/epsilon stays
+            const scalar drag =
+                deltaT*(p.bed->a + p.bed->b*std::sqrt(k[i]));
+            const scalar rate = deltaT*epsilon[i]/k[i];
+            k[i] = max(k[i]/(1 + drag + rate), least);
+            epsilon[i] = max(epsilon[i]/(1 + drag + C2_*rate), least);
+            continue;
+        }
         if (walls_.any())
         {
             const scalar x[3] =
                 {p.x[0][i], p.x[1][i], p.x[2] ? p.x[2][i] : 0};
             const scalar distance = walls_.distance(p.cell[i], x);
-            if (distance < h)
+            if (distance < h && distance <= bedDistance)
             {
                 // As a cell would: at its centre, where the velocity that
                 // the grid has along the wall is about right
@@ -128,23 +160,24 @@ void Foam::mpm::kEpsilon::react
                 {
                     speedSqr += sqr(p.v[d][i]);
                 }
-                const scalar uStar = max
+                const scalar ks = walls_.roughness(p.cell[i]);
+                setLaw
                 (
-                    wallLaw::frictionVelocity
-                    (
-                        std::sqrt(speedSqr), y, walls_.roughness(p.cell[i]), nu
-                    ),
-                    VSMALL
-                );
-                k[i] = max(sqr(uStar)/std::sqrt(Cmu_), least);
-                epsilon[i] = max
-                (
-                    pow3(uStar)
-                   /(wallLaw::kappa*(y + walls_.roughness(p.cell[i])/30)),
-                    least
+                    i,
+                    wallLaw::frictionVelocity(std::sqrt(speedSqr), y, ks, nu),
+                    y,
+                    ks
                 );
                 continue;
             }
+        }
+        if (bedDistance < h && p.bedFrictionVelocity[i] > 0)
+        {
+            setLaw
+            (
+                i, p.bedFrictionVelocity[i], max(bedDistance, 0.5*h), p.bed->ks
+            );
+            continue;
         }
         const scalar production = min
         (

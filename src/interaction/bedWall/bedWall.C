@@ -1,0 +1,303 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "bedWall.H"
+#include "backgroundGrid.H"
+#include "couplingFields.H"
+#include "nodalFields.H"
+#include "nodeBoundary.H"
+#include "wallLaw.H"
+#include <algorithm>
+#include <cmath>
+
+namespace Foam
+{
+namespace mpm
+{
+    //- Solid fraction at a node y over a plane bed, of the quadratic spline
+    static scalar planeFraction(const scalar y)
+    {
+        if (y < 0) return 1 - planeFraction(-y);
+        if (y >= 1.5) return 0;
+        return y >= 0.5 ? pow3(1.5 - y)/6 : 0.5 - 0.75*y + pow3(y)/3;
+    }
+
+    //- The same smoothed by (1 2 1)/4
+    static scalar smoothFraction(const scalar y)
+    {
+        return
+            0.25*planeFraction(y - 1) + 0.5*planeFraction(y)
+          + 0.25*planeFraction(y + 1);
+    }
+
+    //- The height at which it has a value, within 2.5
+    static scalar planeHeight(const scalar phi)
+    {
+        scalar low = -2.5, high = 2.5;
+        for (int i = 0; i < 40; ++i)
+        {
+            const scalar y = 0.5*(low + high);
+            (smoothFraction(y) > phi ? low : high) = y;
+        }
+        return 0.5*(low + high);
+    }
+}
+}
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<class Op>
+void Foam::mpm::bedWall::forInner(const Op& op) const
+{
+    for (const auto& range : ranges_)
+    {
+        for (label i = range.first; i < range.second; ++i)
+        {
+            // Behind walls there is neither soil nor water
+            if (inner_[i] && inverseVolume_[i] > 0) op(i);
+        }
+    }
+}
+
+
+void Foam::mpm::bedWall::share(nodeField<nodeVector>& field) const
+{
+    if (grid_.exchange().idle()) return;
+
+    for (const label i : shared_)
+    {
+        if (!inner_[i]) field[i] = nodeVector{};
+    }
+    grid_.exchange().sum(field);
+    for (const label i : shared_) field[i] *= perCopy_[i];
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::bedWall::bedWall
+(
+    const backgroundGrid& grid,
+    const couplingFields& coupling,
+    const nodeBoundary& boundary,
+    const scalar ks,
+    const scalar nu,
+    const scalar a,
+    const scalar b
+)
+:
+    grid_(grid),
+    coupling_(coupling),
+    inverseVolume_(boundary.inverseVolume()),
+    nu_(nu),
+    inner_(grid.nNodes(), 0),
+    shared_(grid.exchange().sharedNodes()),
+    perCopy_(grid.nNodes(), 1),
+    smooth_(grid.nNodes(), nodeVector{}),
+    surface_(grid.nNodes(), nodeVector{})
+{
+    fields_.ks = ks;
+    fields_.a = a;
+    fields_.b = b;
+    fields_.distance.assign(grid.nNodes(), GREAT);
+    fields_.frictionVelocity.assign(grid.nNodes(), 0);
+
+    const label size = grid.reachSize();
+    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
+    {
+        const label first = grid.boxCell(celli) + grid.reachOffset();
+        for (label t = 0; t < size; ++t) inner_[first + grid.reachNode(t)] = 1;
+    }
+
+    const label beyond = grid.nNodes();
+    const label rim =
+        1 + grid.stride(1) + (grid.nDim() == 3 ? grid.stride(2) : 0);
+    std::fill(inner_.begin(), inner_.begin() + min(rim, beyond), 0);
+    std::fill(inner_.end() - min(rim, beyond), inner_.end(), 0);
+
+    if (!grid.exchange().idle())
+    {
+        nodeField<nodeVector> copies(grid.nNodes(), nodeVector{});
+        for (const label i : shared_) copies[i][0] = inner_[i];
+        grid.exchange().sum(copies);
+        for (const label i : shared_)
+        {
+            perCopy_[i] = copies[i][0] > 0 ? 1/copies[i][0] : 0;
+        }
+    }
+
+    const label depth = grid.nDim() == 3 ? 1 : 0;
+    for (label k = -depth; k <= depth; ++k)
+    for (label j = -1; j <= 1; ++j)
+    for (label i = -1; i <= 1; ++i)
+    {
+        around_.push_back(i + j*grid.stride(1) + k*grid.stride(2));
+        weight_.push_back
+        (
+            (i ? 0.25 : 0.5)*(j ? 0.25 : 0.5)*(depth ? (k ? 0.25 : 0.5) : 1)
+        );
+        step_.push_back(nodeVector{scalar(i), scalar(j), scalar(k), 0});
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::mpm::bedWall::h() const
+{
+    return grid_.cells().minSpacing();
+}
+
+
+void Foam::mpm::bedWall::update
+(
+    const std::function<scalar(const label)>& solidFraction,
+    const nodalFields& soil,
+    const nodalFields& water
+)
+{
+    const label dim = grid_.nDim();
+    const label n = around_.size();
+    const scalar h = this->h();
+
+    // What was
+    auto clear = [&](const label i)
+    {
+        smooth_[i] = surface_[i] = nodeVector{};
+        fields_.distance[i] = GREAT;
+        fields_.frictionVelocity[i] = 0;
+    };
+    for (const auto& range : ranges_)
+    {
+        for (label i = range.first; i < range.second; ++i) clear(i);
+    }
+    for (const label i : shared_) clear(i);
+    ranges_ = coupling_.ranges;
+
+    // Is there a bed here, next to here, and next but one
+    auto near = [&](const label slot)
+    {
+        share(smooth_);
+        forInner
+        (
+            [&](const label i)
+            {
+                scalar most = 0;
+                for (const label o : around_)
+                {
+                    most = max(most, smooth_[i + o][slot]);
+                }
+                smooth_[i][slot + 1] = most;
+            }
+        );
+    };
+    forInner
+    (
+        [&](const label i)
+        {
+            scalar phi = 0;
+            for (label t = 0; t < n; ++t)
+            {
+                const label j = i + around_[t];
+                phi += weight_[t]*solidFraction(inverseVolume_[j] > 0 ? j : i);
+            }
+            smooth_[i][0] = phi;
+            smooth_[i][1] = solidFraction(i) > leastFraction;
+        }
+    );
+    near(1);
+    near(2);
+    share(smooth_);
+
+    forInner
+    (
+        [&](const label i)
+        {
+            const scalar phi = smooth_[i][0];
+            if (!(phi > 0) || !(smooth_[i][3] > 0)) return;
+            const scalar y = h*planeHeight(phi);
+            fields_.distance[i] = y;
+            if (mag(y) > reach*h) return;
+
+            nodeVector area{};
+            scalar slopeSqr = 0;
+            for (label d = 0; d < dim; ++d)
+            {
+                const label s = grid_.stride(d);
+                if (!(inverseVolume_[i - s] > 0 && inverseVolume_[i + s] > 0))
+                {
+                    continue;
+                }
+                area[d] =
+                    (smooth_[i - s][0] - smooth_[i + s][0])
+                   /(2*grid_.cells().spacing(d));
+                slopeSqr += sqr(area[d]);
+            }
+            const scalar slope = std::sqrt(slopeSqr);
+            const scalar plane =
+                0.5*(smoothFraction(y/h - 1) - smoothFraction(y/h + 1))/h;
+            if (!(slope > leastSlope*plane)) return;
+
+            nodeVector s = area*(1/slope);
+            for (label d = dim; d < 4; ++d) s[d] = 0;
+            s[3] = slope/inverseVolume_[i];
+
+            // Water away from the bed, relative to the soil
+            nodeVector u{};
+            scalar weights = 0, height = 0;
+            for (label t = 0; t < n; ++t)
+            {
+                scalar up = 0;
+                for (label d = 0; d < dim; ++d) up += step_[t][d]*s[d];
+                const label j = i + around_[t];
+                if (up <= 0 || !(water.mass(j) > 0)) continue;
+                const scalar w = sqr(up)*weight_[t]*water.mass(j);
+                u += w*water.velocity[j];
+                height += w*(y + up*h);
+                weights += w;
+            }
+            if (!(weights > 0)) return;
+
+            const scalar m = soil.mass(i);
+            scalar along = 0, across = 0;
+            for (label d = 0; d < dim; ++d)
+            {
+                u[d] = u[d]/weights - (m > 0 ? soil.velocity[i][d] : 0);
+                across += u[d]*s[d];
+                along += sqr(u[d]);
+            }
+            surface_[i] = s;
+            fields_.frictionVelocity[i] = wallLaw::frictionVelocity
+            (
+                std::sqrt(max(along - sqr(across), scalar(0))),
+                max(height/weights, 0.5*h),
+                fields_.ks,
+                nu_
+            );
+        }
+    );
+
+    if (grid_.exchange().idle()) return;
+    share(surface_);
+    for (const label i : shared_)
+    {
+        smooth_[i] = nodeVector{};
+        if (fields_.distance[i] < GREAT)
+        {
+            smooth_[i] = nodeVector
+            {
+                fields_.distance[i], fields_.frictionVelocity[i], 1, 0
+            };
+        }
+    }
+    share(smooth_);
+    for (const label i : shared_)
+    {
+        fields_.distance[i] = smooth_[i][2] > 0 ? smooth_[i][0] : GREAT;
+        fields_.frictionVelocity[i] = smooth_[i][1];
+    }
+}
+
+// ************************************************************************* //
