@@ -111,10 +111,10 @@ class BedChannel(Channel):
 
     def stressOf(self, case, first, last):
         """Mean stress on the bed between two times over rho u*^2, from the
-        momentum of the water"""
-        momentum = [(p.mass*p.U[:, 0]).sum() for p in
-                    (case.points(t) for t in (first, last))]
-        mass = case.points(last).totalMass
+        momentum of the water; what drives that in the pores stays there"""
+        points = [case.points(t) for t in (first, last)]
+        momentum = [(p.mass*p.U[:, 0]).sum() for p in points]
+        mass = points[1].mass[points[1].x[:, 1] > self.bed].sum()
         area = 4*self.h*self.h
         lost = (mass*self.uStar**2/self.depth
                 - (momentum[1] - momentum[0])/(float(last) - float(first)))

@@ -25,7 +25,7 @@ for place in ["etc/python", "test", "test/cases"]:
 import caseBuilder  # noqa: E402
 from caseBuilder import G, RHO, Setup, hydrostatic  # noqa: E402
 from liquids import (  # noqa: E402
-    KAPPA, Channel, binghamGap, binghamSlope, setField)
+    KAPPA, BedChannel, Channel, binghamGap, binghamSlope, setField)
 from mpmfoam import figureTable  # noqa: E402
 
 caseBuilder.TIMEOUT = 7200
@@ -48,6 +48,16 @@ def channel(path, turbulence, transfer="XAPIC", **entries):
     return [("mean velocity over the law's", flow.meanOf(case), "1 +- 5 %"),
             ("largest error of the profile over the first row",
              np.abs(np.array(profile) - 1).max(), "")]
+
+
+def bed(path, **entries):
+    """Over grains, half as long"""
+    flow = BedChannel(coeffs=START, **entries)
+    case = flow.start(path, 2.5*flow.depth/flow.uStar, writes=5)
+    case.solve()
+    return [("mean velocity over the law's", flow.meanOf(case), "1 +- 5 %"),
+            ("stress on the bed over the law's",
+             flow.stressOf(case, *case.times[-2:]), "1 +- 5 %")]
 
 
 def gap(path, transfer="APIC", **entries):
@@ -228,6 +238,12 @@ RUNS = {
            ("BinghamPapanastasiou", 10, 32, "XAPIC"),
            ("BinghamPapanastasiou", 40, 32, "APIC"),
            ("HerschelBulkley", 10, 16, "XAPIC")]},
+    **{f"bed {name}": within(bed, **entries) for name, entries in [
+        ("cells=20", {}), ("cells=40", {"cells": 40}),
+        ("cells=20 between nodes", {"rise": 0.5}),
+        ("cells=20 jittered", {"placement": "jittered"}),
+        ("cells=20 d=4 mm", {"d": 4e-3}),
+        ("cells=40 jittered", {"cells": 40, "placement": "jittered"})]},
     **{f"slope cells={n}": within(slope, cells=n) for n in [8, 16]},
     "slope holds cells=8": within(slope, cells=8, yields=False),
     **{f"spreading h={h*1e3:g} mm": within(spreading, h)

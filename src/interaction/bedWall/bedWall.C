@@ -32,10 +32,14 @@ namespace mpm
           + 0.25*planeFraction(y + 1);
     }
 
-    //- The height at which it has a value, within 2.5
-    static scalar planeHeight(const scalar phi)
+    //- The height at which it has a value; beyond reach 2.5
+    static scalar planeHeight(const scalar phi, const scalar reach)
     {
-        scalar low = -2.5, high = 2.5;
+        static const scalar least = smoothFraction(reach);
+        if (phi <= least) return 2.5;
+        if (phi >= 1 - least) return -2.5;
+
+        scalar low = -reach, high = reach;
         for (int i = 0; i < 40; ++i)
         {
             const scalar y = 0.5*(low + high);
@@ -217,7 +221,7 @@ void Foam::mpm::bedWall::update
         {
             const scalar phi = smooth_[i][0];
             if (!(phi > 0) || !(smooth_[i][3] > 0)) return;
-            const scalar y = h*planeHeight(phi);
+            const scalar y = h*planeHeight(phi, reach);
             fields_.distance[i] = y;
             if (mag(y) > reach*h) return;
 
