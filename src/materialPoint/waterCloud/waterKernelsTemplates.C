@@ -622,17 +622,20 @@ public:
         );
         c.grid_.exchange().sum(change);
 
-        // What falls does so as if implicit: positive whatever the step
+        // What falls does so in parts, as if implicit: positive whatever the
+        // step. What rises is added: in parts, a point with more than the nodes
+        // around it would take the large gain of one that has next to nothing.
         this->forActiveNodes
         (
             [&](const label i)
             {
+                const scalar m = c.nodes_.mass(i);
                 for (int s = 0; s < 2; ++s)
                 {
                     const scalar had = sum[i][s];
-                    const scalar gain =
-                        had > 0 ? -deltaT*change[i][s]/had : 0;
-                    field[i][s] = gain > 0 ? 1 + gain : 1/(1 - gain);
+                    const scalar gain = -deltaT*change[i][s];
+                    field[i][s] = gain < 0 && had > 0 ? had/(had - gain) : 1;
+                    sum[i][s] = gain > 0 && m > 0 ? gain/m : 0;
                 }
             }
         );
@@ -652,6 +655,25 @@ public:
                 {
                     scalar* value = values[s] + p;
                     storeLanes(value, loadLanes(value)*factor[s], valid);
+                }
+            }
+        );
+        kernels_.scalarsToPoints
+        (
+            points,
+            sum,
+            [&]
+            (
+                const label p,
+                const laneMask& valid,
+                const lanes (&gain)[dim + 1],
+                const lanes (&)[dim + 1][dim]
+            )
+            {
+                for (int s = 0; s < 2; ++s)
+                {
+                    scalar* value = values[s] + p;
+                    storeLanes(value, loadLanes(value) + gain[s], valid);
                 }
             }
         );
