@@ -377,7 +377,8 @@ CONTENTS = {
        for c in [4, 8]},
     **{f"wedge{d}_h{h:g}{'_gravity' if g else ''}":
        (lambda n, d=d, h=h, g=g: wedge(n, d, h, g))
-       for d in [20, 30, 45] for h, g in [(0.01, False), (0.01, True), (0.02, False)]},
+       for d in [20, 30, 45]
+       for h, g in [(0.01, False), (0.01, True), (0.005, False)]},
     **{f"floating{r:g}_h{h:g}": (lambda n, r=r, h=h: floating(n, r, h))
        for r in [0.05, 0.5] for h in [0.02, 0.01]},
     "quiet_h0.02": lambda n: quiet(n, 0.02),

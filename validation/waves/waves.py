@@ -144,7 +144,7 @@ def crest(t, eta):
     return t[i] - b/(2*a), c - b*b/(4*a)
 
 
-def solitary(name, h, points=2):
+def solitary(name, h, points=2, **water):
     depth, height = 0.3, 0.09
     speed = np.sqrt(G*(depth + height))
     first = 7*depth
@@ -152,7 +152,7 @@ def solitary(name, h, points=2):
     end = h*round((x[-1] + 8*depth)/h)
     arrival = 1.4 + (x[-1] - FACE)/speed
     case = solve(name, Setup(
-        cells=(round(end/h), round(0.48/h)), h=h, points=points,
+        cells=(round(end/h), round(0.48/h)), h=h, points=points, water=water,
         regions={"pool": hydrostatic((FACE, 0), (end, depth))},
         bodies={"piston": paddle(
             h, 0.48, wave="solitary", height=height, depth=depth)},
@@ -177,7 +177,7 @@ def column(points, x, h):
     return (near*volume).sum(axis=1)/h**2
 
 
-def runUp(name, cellsOfDepth, points=2):
+def runUp(name, cellsOfDepth, points=2, **water):
     """H/d = 0.3. The time counts from when the crest is half a wave length
     before the toe of the beach."""
     depth, part, slope = 0.3, 0.3, 19.85
@@ -192,7 +192,7 @@ def runUp(name, cellsOfDepth, points=2):
     unit = np.sqrt(depth/G)
     start = 1.55 + (toe - half - FACE - 4*depth)/np.sqrt(G*(depth + height))
     case = solve(name, Setup(
-        cells=cells, h=h, points=points,
+        cells=cells, h=h, points=points, water=water,
         regions={"pool": hydrostatic((FACE, 0), (shore, depth))},
         bodies={
             "piston": paddle(h, 1.8*depth, wave="solitary", height=height,
@@ -232,7 +232,11 @@ CONTENTS = {
     "regular_h0.03_wall": lambda n: regular(n, 0.03, False),
     **{f"solitary_h{h:g}": (lambda n, h=h: solitary(n, h))
        for h in [0.03, 0.02]},
+    **{f"solitary_h{h:g}_XAPIC":
+       (lambda n, h=h: solitary(n, h, transfer="XAPIC"))
+       for h in [0.03, 0.02]},
     **{f"runUp_d{c}h": (lambda n, c=c: runUp(n, c)) for c in [10, 15]},
+    "runUp_d10h_XAPIC": lambda n: runUp(n, 10, transfer="XAPIC"),
 }
 
 
