@@ -110,6 +110,41 @@ def testCarriesWhatTheLawSays(tmp_path, figures):
                    found["none"]/found["MeyerPeterMueller"], 0.1)
 
 
+@pytest.mark.parametrize("stress", [0.3, 3])
+def testByTheLawOfTheWall(tmp_path, figures, stress):
+    """A current in equilibrium, of the logarithmic law: the stress on the bed
+    is what drives it, and what it carries is what Meyer-Peter and Mueller say of
+    that; at half the critical stress nothing"""
+    uStar, ks = np.sqrt(stress/RHO), 2.5*D
+    setup = current(stress, "MeyerPeterMueller", bedStress="wallLaw")
+    setup.water = {"turbulence": "kEpsilon", "transfer": "XAPIC",
+                   "bodyForce": (stress/RHO/DEPTH, 0, 0),
+                   "kEpsilonCoeffs": {
+                       "k": uStar**2/0.3/2,
+                       "epsilon": uStar**3/0.41/(DEPTH/2)}}
+    setup.g = (0, -G, 0)
+    setup.regions.pop("current")
+    rowsOver = round(DEPTH/H)
+    for j in range(rowsOver):
+        z = (j + (np.arange(100) + 0.5)/100)*H
+        setup.regions[f"row{j}"] = box(
+            (0, BED + j*H), (N*H, BED + (j + 1)*H), pressure="hydrostatic",
+            level=BED + DEPTH, velocity=((uStar/0.41*np.log1p(30*z/ks)).mean(), 0, 0))
+    case = solved(setup, tmp_path/"case", 0.8, 0.1)
+    times = [f"{t:g}" for t in np.arange(4, 9)/10]
+    found = transports(case, times, setup.cells)
+    logged = np.array(loggedStress(case))
+    mean = logged[len(logged)//2:].mean()
+    figures.atMost("stress over what drives the water, less one",
+                   abs(mean/stress - 1), 0.2)
+    if stress < 0.047*WEIGHT:
+        figures.atMost("transport", abs(found).max(), 1e-3)
+    else:
+        expected = 8*(mean/WEIGHT - 0.047)**1.5
+        figures.atMost("transport over the law's, less one",
+                       abs(found.mean()/expected - 1), 0.3)
+
+
 def testRestsBelowTheThreshold(tmp_path, figures):
     setup = current(0.35, "WongParker")
     case = solved(setup, tmp_path/"case", 0.4, 0.1)

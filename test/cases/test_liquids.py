@@ -6,8 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from caseBuilder import CaseError, Setup, box, damBreak, hydrostatic
+from caseBuilder import RHO, CaseError, Setup, box, damBreak, hydrostatic
 from liquids import BedChannel, Channel, binghamGap, setField
+from test_erosionCriteria import criteria, rows
 from test_parallel import agree
 from test_restart import differing
 
@@ -38,8 +39,20 @@ def testOpenChannelOverBed(tmp_path, figures, cells, entries):
     less regular the points are; its bounds tell it from that, not from the law:
     after 2.5 H/u* it is 0.98 to 1.46 times the law's (validation/liquids)"""
     channel = BedChannel(cells, coeffs={"k": 8e-3, "epsilon": 3e-3}, **entries)
+    channel.setup.functions = {"erosion": criteria(
+        shearStress="wallLaw", criteria="(Shields)",
+        writeControl="adjustableRunTime", writeInterval=0.1)}
     case = channel.start(tmp_path/"case", 4)
     case.solve()
+
+    # Of a velocity that is right within 5 % the stress is within 10 %
+    found = rows(case)
+    late = found["Time"] > 2
+    law = RHO*channel.uStar**2*found["shearStress"][late].size
+    figures.atMost("stress of the law over rho u*^2, less one",
+                   abs(found["shearStress"][late].sum()/law - 1), 0.1)
+    figures.holds("no stress before the first step", np.isnan(
+        found["shearStress"][found["Time"] == 0]).all())
     figures.atMost("mean velocity over that of the law, less one",
                    abs(channel.meanOf(case) - 1), 0.05)
     stress = channel.stressOf(case, *case.times[-2:])
@@ -56,10 +69,13 @@ def testOpenChannelOverBed(tmp_path, figures, cells, entries):
 
 
 def overSand(dim, **entries):
-    """A dam break on a bed of sand"""
+    """A dam break on a bed of sand, which moves by the stress of the law"""
     upper = (0.5, 0.06) if dim == 2 else (0.5, 0.2, 0.06)
     return damBreak(dim, points=2, water=KEPSILON, energy=False,
-                    soilRegions={"bed": box((0,)*dim, upper)}, **entries)
+                    functions={"erosion": criteria(shearStress="wallLaw")},
+                    soilRegions={"bed": box((0,)*dim, upper)},
+                    soil={"bedLoad": "MeyerPeterMueller",
+                          "bedStress": "wallLaw"}, **entries)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -83,6 +99,12 @@ def testRanksAgreeOverABed(tmp_path, figures, dim):
     serial.solve()
     parallel.solve(ranks=2)
     agree(figures, parallel, serial)
+    a, b = (rows(case)["shearStress"] for case in (parallel, serial))
+    figures.equal("columns without a stress that differ",
+                  int((np.isnan(a) != np.isnan(b)).sum()), 0)
+    figures.atLeast("columns with a stress", int(np.isfinite(b).sum()), 1)
+    figures.atMost("stress on the bed: largest relative difference",
+                   np.nanmax(np.abs(a - b))/np.nanmax(np.abs(b)), 1e-10)
 
 
 def testStressStopsButNeverTurns(tmp_path, figures):
@@ -226,6 +248,13 @@ def wallCase(wall, **entries):
     (wallCase({"type": "smoothWall"}, water={"turbulence": "mixingLength"},
               soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
      "beside solids a bed would be one"),
+    (wallCase("slip", soil={"bedStress": "wallLaw"},
+              soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
+     "bedStress is wallLaw, which needs turbulence kEpsilon of the water.*"
+     "Allowed here: bedStress drag"),
+    (wallCase("slip", soil={"bedStress": "law"}, water=KEPSILON,
+              soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
+     r"bedStress.*law.*\(drag wallLaw\)"),
     (wallCase("slip", soilWall={"type": "roughWall", "ks": 1e-3},
               soilRegions={"bed": box((0.3, 0), (0.4, 0.04))}),
      "a cloud that is no liquid")],

@@ -9,6 +9,7 @@ License
 #include "dictionaryEntries.H"
 #include "gravityMeshObject.H"
 #include "volFields.H"
+#include "soilCloud.H"
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 #include "functionNeeds.H"
@@ -113,11 +114,20 @@ void Foam::mpm::erosionCriteria::readCriteria(const dictionary& dict)
 
 void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
 {
-    logLaw_ =
-        readChoiceOrDefault
-        (
-            dict, "shearStress", "logLaw", {"logLaw", "viscous"}
-        ) == "logLaw";
+    shearStress_ = readChoiceOrDefault
+    (
+        dict, "shearStress", "logLaw", {"logLaw", "viscous", "wallLaw"}
+    );
+    logLaw_ = shearStress_ == "logLaw";
+    wallLaw_ = shearStress_ == "wallLaw";
+    if (wallLaw_ && !soil().hasBedForce())
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword shearStress is wallLaw, which needs turbulence kEpsilon"
+            << " of the " << waterName() << ", and drag between it and the "
+            << soil().name() << '.' << nl
+            << "    Allowed here: logLaw, viscous" << exit(FatalIOError);
+    }
     roughness_ = readBoundedOrDefault
     (
         dict, "roughness", dimLength,
@@ -141,8 +151,7 @@ void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
     {
         FatalIOErrorInFunction(dict)
             << "keyword heights is " << heights_ << '.' << nl
-            << "    Allowed for shearStress "
-            << (logLaw_ ? "logLaw" : "viscous")
+            << "    Allowed for shearStress " << shearStress_
             << ": two heights [m], the first >= " << lowest
             << ", the second at least " << least << " higher"
             << exit(FatalIOError);
@@ -214,6 +223,59 @@ Foam::mpm::erosionCriteria::findProfile() const
         velocity(waterName()),
         velocity(cloud().name())
     };
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::mpm::erosionCriteria::findWallLaw() const
+{
+    const lattice& cells = cloud().grid().cells();
+    List<nodeVector> found;
+    soil().bedForce(found);
+
+    volVectorField force
+    (
+        IOobject("bedForce", mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedVector(dimless, Zero)
+    );
+    volScalarField area
+    (
+        IOobject("bedArea", mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedScalar(dimless, Zero)
+    );
+    forAll(found, celli)
+    {
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            force[celli][cells.axis(d)] = found[celli][d];
+        }
+        area[celli] = found[celli][3];
+    }
+
+    // Of columns, over the area of their bed; the first component is along
+    // the profile
+    const scalarField areas(surfaces().gather(area));
+    tmp<vectorField> stress(new vectorField(surfaces().nColumns(), Zero));
+    scalarField sums(stress().size(), Zero);
+    direction component = 0;
+    for (label d : {along(), 3 - along() - vertical()})
+    {
+        if (d >= cells.nDim() || d == vertical()) continue;
+        const scalarField forces(surfaces().gather(force, d));
+        forAll(forces, k)
+        {
+            stress.ref()[k/surfaces().nRows()][component] += forces[k];
+        }
+        ++component;
+    }
+    forAll(areas, k) sums[k/surfaces().nRows()] += max(areas[k], scalar(0));
+    forAll(sums, c)
+    {
+        if (sums[c] > 0) stress.ref()[c] /= sums[c];
+        else stress.ref()[c] = vector::uniform(noNumber);
+    }
+    return stress;
 }
 
 
@@ -291,7 +353,7 @@ Foam::mpm::erosionCriteria::flow Foam::mpm::erosionCriteria::findFlow
         }
     }
     if (volume > 0) result.meanVelocity = flux/volume;
-    if (n < needed) return result;
+    if (wallLaw_ || n < needed) return result;
     result.height = sumZ/n;
 
     // u = slope L, or with an intercept for the straight line
@@ -435,24 +497,35 @@ void Foam::mpm::erosionCriteria::readEntries(const dictionary& dict)
 Foam::stringList Foam::mpm::erosionCriteria::description() const
 {
     DynamicList<string> lines;
-    lines.append
-    (
-        string("Shear stress by ")
-      + (logLaw_ ? "the law of the rough wall, roughness "
-           + Foam::name(roughness_) + " m" : string("viscosity"))
-      + ", from water " + Foam::name(heights_.first()) + " to "
-      + Foam::name(heights_.second()) + " m above the bed"
-    );
-    lines.append
-    (
-        "Water too thin for these heights: from the highest cells that are"
-        " full of it (column velocityHeight: their mean height)"
-    );
-    lines.append
-    (
-        string("nan: no water, or none left: fewer than ")
-      + (logLaw_ ? "one full cell" : "two full cells") + " over the bed"
-    );
+    if (wallLaw_)
+    {
+        lines.append
+        (
+            "Shear stress by the law of the wall that turbulence takes (nan:"
+            " none, or before the first step)"
+        );
+    }
+    else
+    {
+        lines.append
+        (
+            string("Shear stress by ")
+          + (logLaw_ ? "the law of the rough wall, roughness "
+               + Foam::name(roughness_) + " m" : string("viscosity"))
+          + ", from water " + Foam::name(heights_.first()) + " to "
+          + Foam::name(heights_.second()) + " m above the bed"
+        );
+        lines.append
+        (
+            "Water too thin for these heights: from the highest cells that are"
+            " full of it (column velocityHeight: their mean height)"
+        );
+        lines.append
+        (
+            string("nan: no water, or none left: fewer than ")
+          + (logLaw_ ? "one full cell" : "two full cells") + " over the bed"
+        );
+    }
     forAll(criteria_, i)
     {
         const erosionCriterion& c = criteria_[i];
@@ -496,6 +569,10 @@ Foam::List<Foam::scalarList> Foam::mpm::erosionCriteria::rows() const
 
     scalarField speed, layer;
     findMotion(h.bed, speed, layer);
+    const tmp<vectorField> stresses
+    (
+        wallLaw_ ? findWallLaw() : tmp<vectorField>()
+    );
 
     const label n = surfaces().nStations();
     List<scalarList> lines(n);
@@ -505,7 +582,12 @@ Foam::List<Foam::scalarList> Foam::mpm::erosionCriteria::rows() const
         List<meanOfNumbers> means(columns().size());
         for (label c = station; c < h.bed.size(); c += n)
         {
-            const flow f(findFlow(u, h, c));
+            flow f(findFlow(u, h, c));
+            if (wallLaw_ && !std::isnan(f.depth))
+            {
+                const vector& tau = stresses()[c];
+                f.shearVelocity = sign(tau.x())*std::sqrt(mag(tau)/rho);
+            }
             const scalar stress = rho*f.shearVelocity*mag(f.shearVelocity);
 
             label i = 1;
@@ -552,6 +634,7 @@ Foam::mpm::erosionCriteria::erosionCriteria
 :
     bedTimeSeries(name, runTime, dict, "erosionCriteria"),
     logLaw_(true),
+    wallLaw_(false),
     roughness_(0),
     heights_(0, 0),
     movingSpeed_(0)

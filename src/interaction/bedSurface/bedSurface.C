@@ -9,45 +9,13 @@ License
 #include "couplingFields.H"
 #include "PstreamReduceOps.H"
 #include "nodalFields.H"
-#include <algorithm>
 #include <cmath>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-template<class Op>
-void Foam::mpm::bedSurface::forInner(const Op& op) const
-{
-    for (const auto& range : ranges_)
-    {
-        for (label i = range.first; i < range.second; ++i)
-        {
-            if (inner_[i]) op(i);
-        }
-    }
-}
-
-
 void Foam::mpm::bedSurface::zero(nodeField<nodeVector>& field) const
 {
-    for (const auto& range : ranges_)
-    {
-        for (label i = range.first; i < range.second; ++i)
-        {
-            field[i] = nodeVector{};
-        }
-    }
-    for (const label i : shared_) field[i] = nodeVector{};
-}
-
-
-void Foam::mpm::bedSurface::share(nodeField<nodeVector>& field) const
-{
-    if (grid_.exchange().idle()) return;
-
-    // Ranks that know all neighbours of a node say the same; the others hear
-    // it
-    grid_.exchange().sum(field);
-    for (const label i : shared_) field[i] *= perCopy_[i];
+    nodes_.forTouched([&](const label i) { field[i] = nodeVector{}; });
 }
 
 
@@ -58,7 +26,7 @@ void Foam::mpm::bedSurface::smooth(nodeField<nodeVector>& field)
     {
         const label stride = grid_.stride(d);
         zero(work_);
-        forInner
+        nodes_.forInner
         (
             [&](const label i)
             {
@@ -72,7 +40,7 @@ void Foam::mpm::bedSurface::smooth(nodeField<nodeVector>& field)
             }
         );
         field.swap(work_);
-        share(field);
+        nodes_.share(field, perCopy_);
     }
 }
 
@@ -83,14 +51,15 @@ Foam::mpm::bedSurface::bedSurface
 (
     const backgroundGrid& grid,
     const couplingFields& fields,
-    const nodeBoundary& boundary
+    const nodeBoundary& boundary,
+    const stressForm form
 )
 :
     grid_(grid),
     fields_(fields),
     inverseVolume_(boundary.inverseVolume()),
-    inner_(grid.nNodes(), 0),
-    shared_(grid.exchange().sharedNodes()),
+    form_(form),
+    nodes_(grid),
     force_(grid.nNodes(), nodeVector{}),
     area_(grid.nNodes(), nodeVector{}),
     weight_(grid.nNodes(), 0),
@@ -99,14 +68,7 @@ Foam::mpm::bedSurface::bedSurface
     flow_(grid.nNodes(), nodeVector{}),
     work_(grid.nNodes(), nodeVector{}),
     meanStress_(0)
-{
-    const label size = grid.reachSize();
-    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
-    {
-        const label first = grid.boxCell(celli) + grid.reachOffset();
-        for (label t = 0; t < size; ++t) inner_[first + grid.reachNode(t)] = 1;
-    }
-}
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -139,18 +101,11 @@ void Foam::mpm::bedSurface::update
     zero(push_);
     zero(flow_);
     zero(work_);
-    for (const auto& range : ranges_)
-    {
-        std::fill
-        (
-            perCopy_.begin() + range.first, perCopy_.begin() + range.second, 0
-        );
-    }
-    for (const label i : shared_) perCopy_[i] = 0;
-    ranges_ = fields_.ranges;
+    nodes_.forTouched([&](const label i) { perCopy_[i] = 0; });
+    nodes_.setRanges(fields_.ranges);
 
     // Nodes with water that have soil, or a neighbour with soil
-    forInner
+    nodes_.forInner
     (
         [&](const label i)
         {
@@ -181,6 +136,7 @@ void Foam::mpm::bedSurface::update
                 min(max(2*(1 - phi), scalar(0)), scalar(1))
                *min(4*h*std::sqrt(slopeSqr), scalar(1));
             force_[i][3] = weight_[i]*solidFraction(i)*volume;
+            if (form_ == wallLaw) return;
 
             // Water over the bed, relative to the soil beside it
             scalar near = phi;
@@ -209,44 +165,131 @@ void Foam::mpm::bedSurface::update
         [&](const label i, const nodeVector& drag, const nodeVector& push)
         {
             if (!(perCopy_[i] > 0)) return;
+            if (form_ == wallLaw)
+            {
+                // Of the part of the surface where the law knows the stress
+                scalar areaSqr = 0;
+                for (label d = 0; d < dim; ++d) areaSqr += sqr(area_[i][d]);
+                const scalar area = std::sqrt(areaSqr);
+                for (label d = 0; d < dim; ++d) force_[i][d] = area*drag[d];
+                area_[i][3] = area;
+                return;
+            }
             for (label d = 0; d < dim; ++d) force_[i][d] = drag[d];
             area_[i][3] = drag[3];
             push_[i] = push;
         }
     );
-    if (!grid_.exchange().idle())
+    if (!nodes_.alone())
     {
         grid_.exchange().sum(perCopy_);
-        for (const label i : shared_)
+        for (const label i : nodes_.shared())
         {
             perCopy_[i] = perCopy_[i] > 0 ? 1/perCopy_[i] : 0;
         }
-        share(force_);
-        share(area_);
-        share(push_);
-        share(flow_);
     }
-    for (label pass = 0; pass < nPasses; ++pass)
+    std::vector<nodeField<nodeVector>*> averaged({&force_, &area_});
+    if (form_ == drag)
     {
-        smooth(force_);
-        smooth(area_);
-        smooth(push_);
-        smooth(flow_);
+        averaged.push_back(&push_);
+        averaged.push_back(&flow_);
+    }
+    for (nodeField<nodeVector>* field : averaged)
+    {
+        nodes_.share(*field, perCopy_);
+    }
+    const label n = form_ == drag ? nPasses : nPassesOfLaw;
+    for (label pass = 0; pass < n; ++pass)
+    {
+        for (nodeField<nodeVector>* field : averaged) smooth(*field);
     }
 
-    scalar sumArea = 0;
-    nodeVector sumForce{};
-    scalar sumDrag = 0, sumResistance = 0;
-    const scalar least = leastArea*volume/h;
-    forInner
+    if (form_ == drag) shareOutDrag(density);
+    else findLocalStress();
+}
+
+
+Foam::scalar Foam::mpm::bedSurface::areaOf(const label node) const
+{
+    scalar areaSqr = 0;
+    for (label d = 0; d < grid_.nDim(); ++d) areaSqr += sqr(area_[node][d]);
+    const scalar area = std::sqrt(areaSqr);
+    const lattice& cells = grid_.cells();
+    return
+        area < leastArea*cells.cellVolume()/cells.minSpacing() ? 0 : area;
+}
+
+
+void Foam::mpm::bedSurface::setNormal
+(
+    const label node,
+    const nodeVector& normal,
+    const scalar thickness
+)
+{
+    area_[node] = normal;
+    area_[node][grid_.nDim()] = thickness > 0 ? weight_[node]/thickness : 0;
+}
+
+
+void Foam::mpm::bedSurface::findLocalStress()
+{
+    const label dim = grid_.nDim();
+    scalarField sums(1 + dim, Zero);
+    nodes_.forInner
     (
         [&](const label i)
         {
             if (!(perCopy_[i] > 0)) return;
-            scalar areaSqr = 0;
-            for (label d = 0; d < dim; ++d) areaSqr += sqr(area_[i][d]);
-            const scalar area = std::sqrt(areaSqr);
-            if (area < least)
+            const scalar area = areaOf(i);
+            if (!(area > 0))
+            {
+                area_[i] = force_[i] = nodeVector{};
+                return;
+            }
+            const scalar known = area_[i][3];
+            const scalar thickness = force_[i][3]/area;
+            nodeVector normal = area_[i]*(1/area);
+            for (label d = dim; d < 4; ++d) normal[d] = 0;
+
+            nodeVector stress{};
+            if (known > 0)
+            {
+                stress = force_[i]*(1/known);
+                scalar into = 0;
+                for (label d = 0; d < dim; ++d) into += stress[d]*normal[d];
+                stress -= into*normal;
+                for (label d = dim; d < 4; ++d) stress[d] = 0;
+            }
+            const scalar part = perCopy_[i]*area;
+            sums[0] += part;
+            for (label d = 0; d < dim; ++d) sums[1 + d] += part*stress[d];
+
+            force_[i] = stress;
+            setNormal(i, normal, thickness);
+        }
+    );
+    reduce(sums, sumOp<scalarField>());
+    scalar sumSqr = 0;
+    for (label d = 0; d < dim; ++d) sumSqr += sqr(sums[1 + d]);
+    meanStress_ = sums[0] > 0 ? std::sqrt(sumSqr)/sums[0] : 0;
+}
+
+
+void Foam::mpm::bedSurface::shareOutDrag(const scalar density)
+{
+    const label dim = grid_.nDim();
+
+    scalar sumArea = 0;
+    nodeVector sumForce{};
+    scalar sumDrag = 0, sumResistance = 0;
+    nodes_.forInner
+    (
+        [&](const label i)
+        {
+            if (!(perCopy_[i] > 0)) return;
+            const scalar area = areaOf(i);
+            if (!(area > 0))
             {
                 area_[i] = force_[i] = nodeVector{};
                 return;
@@ -294,8 +337,7 @@ void Foam::mpm::bedSurface::update
             sumForce += part*stress;
 
             force_[i] = flow;
-            area_[i] = normal;
-            area_[i][dim] = thickness > 0 ? weight_[i]/thickness : 0;
+            setNormal(i, normal, thickness);
         }
     );
     // Together: each reduction waits for all ranks
@@ -315,7 +357,7 @@ void Foam::mpm::bedSurface::update
     // Not bounded at each step: what is noise cancels in the points' mean
     const scalar coefficient = sumResistance > 0 ? sumDrag/sumResistance : 0;
     const scalar most = maxFriction*density;
-    forInner
+    nodes_.forInner
     (
         [&](const label i)
         {

@@ -5,11 +5,11 @@ License
 
 #include "bedWall.H"
 #include "backgroundGrid.H"
+#include "bodyNodes.H"
 #include "couplingFields.H"
 #include "nodalFields.H"
 #include "nodeBoundary.H"
 #include "wallLaw.H"
-#include <algorithm>
 #include <cmath>
 
 namespace Foam
@@ -55,27 +55,55 @@ namespace mpm
 template<class Op>
 void Foam::mpm::bedWall::forInner(const Op& op) const
 {
-    for (const auto& range : ranges_)
-    {
-        for (label i = range.first; i < range.second; ++i)
-        {
-            // Behind walls there is neither soil nor water
-            if (inner_[i] && inverseVolume_[i] > 0) op(i);
-        }
-    }
+    // Behind walls there is neither soil nor water
+    nodes_.forInner
+    (
+        [&](const label i) { if (inverseVolume_[i] > 0) op(i); }
+    );
 }
 
 
-void Foam::mpm::bedWall::share(nodeField<nodeVector>& field) const
+void Foam::mpm::bedWall::lookBeside
+(
+    const std::function<scalar(const label)>& solidFraction,
+    const bodyNodes& bodies
+)
 {
-    if (grid_.exchange().idle()) return;
-
-    for (const label i : shared_)
+    inBody_.assign(grid_.nNodes(), 0);
+    besideBody_.assign(grid_.nNodes(), nodeVector{});
+    for (const bodyNodes::local& l : bodies.locals())
     {
-        if (!inner_[i]) field[i] = nodeVector{};
+        const bodyNodes::node& node = bodies[l.number];
+        inBody_[l.grid] = node.V*node.inverseVolume;
     }
-    grid_.exchange().sum(field);
-    for (const label i : shared_) field[i] *= perCopy_[i];
+
+    forInner
+    (
+        [&](const label i)
+        {
+            const scalar open = 1 - inBody_[i];
+            if (open < leastOpen) return;
+            besideBody_[i] = nodeVector{solidFraction(i)/open, 1, 0, 0};
+        }
+    );
+    nodes_.share(besideBody_, perCopy_);
+    forInner
+    (
+        [&](const label i)
+        {
+            if (besideBody_[i][1] > 0) return;
+            scalar sum = 0, weights = 0;
+            for (size_t t = 0; t < around_.size(); ++t)
+            {
+                const nodeVector& from = besideBody_[i + around_[t]];
+                if (!(from[1] > 0)) continue;
+                sum += weight_[t]*from[0];
+                weights += weight_[t];
+            }
+            if (weights > 0) besideBody_[i][0] = sum/weights;
+        }
+    );
+    nodes_.share(besideBody_, perCopy_);
 }
 
 
@@ -96,8 +124,7 @@ Foam::mpm::bedWall::bedWall
     coupling_(coupling),
     inverseVolume_(boundary.inverseVolume()),
     nu_(nu),
-    inner_(grid.nNodes(), 0),
-    shared_(grid.exchange().sharedNodes()),
+    nodes_(grid),
     perCopy_(grid.nNodes(), 1),
     smooth_(grid.nNodes(), nodeVector{}),
     surface_(grid.nNodes(), nodeVector{})
@@ -108,29 +135,7 @@ Foam::mpm::bedWall::bedWall
     fields_.distance.assign(grid.nNodes(), GREAT);
     fields_.frictionVelocity.assign(grid.nNodes(), 0);
 
-    const label size = grid.reachSize();
-    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
-    {
-        const label first = grid.boxCell(celli) + grid.reachOffset();
-        for (label t = 0; t < size; ++t) inner_[first + grid.reachNode(t)] = 1;
-    }
-
-    const label beyond = grid.nNodes();
-    const label rim =
-        1 + grid.stride(1) + (grid.nDim() == 3 ? grid.stride(2) : 0);
-    std::fill(inner_.begin(), inner_.begin() + min(rim, beyond), 0);
-    std::fill(inner_.end() - min(rim, beyond), inner_.end(), 0);
-
-    if (!grid.exchange().idle())
-    {
-        nodeField<nodeVector> copies(grid.nNodes(), nodeVector{});
-        for (const label i : shared_) copies[i][0] = inner_[i];
-        grid.exchange().sum(copies);
-        for (const label i : shared_)
-        {
-            perCopy_[i] = copies[i][0] > 0 ? 1/copies[i][0] : 0;
-        }
-    }
+    nodes_.countCopies(perCopy_);
 
     const label depth = grid.nDim() == 3 ? 1 : 0;
     for (label k = -depth; k <= depth; ++k)
@@ -157,7 +162,8 @@ Foam::scalar Foam::mpm::bedWall::h() const
 
 void Foam::mpm::bedWall::update
 (
-    const std::function<scalar(const label)>& solidFraction,
+    const std::function<scalar(const label)>& alone,
+    const bodyNodes* bodies,
     const nodalFields& soil,
     const nodalFields& water
 )
@@ -173,17 +179,19 @@ void Foam::mpm::bedWall::update
         fields_.distance[i] = GREAT;
         fields_.frictionVelocity[i] = 0;
     };
-    for (const auto& range : ranges_)
+    nodes_.forTouched(clear);
+    nodes_.setRanges(coupling_.ranges);
+
+    if (bodies) lookBeside(alone, *bodies);
+    auto solidFraction = [&](const label i)
     {
-        for (label i = range.first; i < range.second; ++i) clear(i);
-    }
-    for (const label i : shared_) clear(i);
-    ranges_ = coupling_.ranges;
+        return bodies ? besideBody(i) : alone(i);
+    };
 
     // Is there a bed here, next to here, and next but one
     auto near = [&](const label slot)
     {
-        share(smooth_);
+        nodes_.share(smooth_, perCopy_);
         forInner
         (
             [&](const label i)
@@ -213,7 +221,7 @@ void Foam::mpm::bedWall::update
     );
     near(1);
     near(2);
-    share(smooth_);
+    nodes_.share(smooth_, perCopy_);
 
     forInner
     (
@@ -283,9 +291,9 @@ void Foam::mpm::bedWall::update
         }
     );
 
-    if (grid_.exchange().idle()) return;
-    share(surface_);
-    for (const label i : shared_)
+    if (nodes_.alone()) return;
+    nodes_.share(surface_, perCopy_);
+    for (const label i : nodes_.shared())
     {
         smooth_[i] = nodeVector{};
         if (fields_.distance[i] < GREAT)
@@ -296,8 +304,8 @@ void Foam::mpm::bedWall::update
             };
         }
     }
-    share(smooth_);
-    for (const label i : shared_)
+    nodes_.share(smooth_, perCopy_);
+    for (const label i : nodes_.shared())
     {
         fields_.distance[i] = smooth_[i][2] > 0 ? smooth_[i][0] : GREAT;
         fields_.frictionVelocity[i] = smooth_[i][1];

@@ -9,6 +9,7 @@
 #include "../bedLoadModel/noBedLoad/noBedLoad.C"
 #include "../bedLoadModel/MeyerPeterMueller/MeyerPeterMueller.C"
 #include "../bedLoadModel/WongParker/WongParker.C"
+#include "../bedNodes/bedNodes.C"
 #include "../bedSurface/bedSurface.C"
 #include "../bedWall/bedWall.C"
 #include "../erosionCriterion/erosionCriterion/erosionCriterion.C"

@@ -452,15 +452,20 @@ Foam::mpm::soilCloud* Foam::mpm::materialPointSystem::newSolid
     const dictionary& dict = properties_.subDict(name);
     soilCloud::checkDictionary(dict, settings_.strictKeywords);
 
-    const word bedLoad(dict.lookupOrDefault<word>("bedLoad", "none"));
-    if (bedLoad != "none" && (!settings_.coupled || nSolids > 1))
+    auto needsBed = [&](const word& keyword, const word& without)
     {
+        const word value(dict.lookupOrDefault<word>(keyword, without));
+        if (value == without || (settings_.coupled && nSolids == 1)) return;
+
         FatalIOErrorInFunction(dict)
-            << "keyword bedLoad is " << bedLoad << ", but there is "
+            << "keyword " << keyword << " is " << value << ", but there is "
             << (nSolids > 1 ? "more than one solid." : "no liquid.") << nl
-            << "    Allowed: none, or a liquid and one solid in clouds"
+            << "    Allowed: " << without
+            << ", or a liquid and one solid in clouds"
             << exit(FatalIOError);
-    }
+    };
+    needsBed("bedLoad", "none");
+    needsBed("bedStress", "drag");
     return new soilCloud
     (
         name, mesh_, grid_, dict, settings_, cost_, g_,

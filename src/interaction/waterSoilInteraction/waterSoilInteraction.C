@@ -104,25 +104,76 @@ Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallImpulse
     const scalar deltaT
 ) const
 {
-    const label dim = grid_.nDim();
-    const nodeVector& normal = wall_->normal(node);
-    scalar across = 0;
-    for (label d = 0; d < dim; ++d) across += dv[d]*normal[d];
-    nodeVector along = dv - across*normal;
-    scalar speedSqr = 0;
-    for (label d = 0; d < dim; ++d) speedSqr += sqr(along[d]);
+    scalar speed = 0;
+    const nodeVector along = alongBed(node, dv, speed);
 
     // Against the velocity that is left
     const scalar x =
         deltaT*water_.fluid().rho0()*wall_->shear(node)
-       /(mass*max(std::sqrt(speedSqr), VSMALL));
-    return mass*(part*across*normal + x/(1 + x)*along);
+       /(mass*max(speed, VSMALL));
+    return mass*(part*(dv - along) + x/(1 + x)*along);
+}
+
+
+Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallForce
+(
+    const label node,
+    const nodeVector& dv,
+    const scalar resistance
+) const
+{
+    scalar speed = 0;
+    const nodeVector along = alongBed(node, dv, speed);
+    return
+        resistance*(dv - along)
+      + water_.fluid().rho0()*wall_->shear(node)/max(speed, VSMALL)*along;
+}
+
+
+Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallStress
+(
+    const label node,
+    const nodeVector& dv
+) const
+{
+    scalar speed = 0;
+    const nodeVector along = alongBed(node, dv, speed);
+    return
+        along
+       *(
+            water_.fluid().rho0()*sqr(wall_->frictionVelocity(node))
+           /max(speed, VSMALL)
+        );
+}
+
+
+Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::alongBed
+(
+    const label node,
+    const nodeVector& v,
+    scalar& size
+) const
+{
+    const label dim = grid_.nDim();
+    const nodeVector& normal = wall_->normal(node);
+    scalar across = 0;
+    for (label d = 0; d < dim; ++d) across += v[d]*normal[d];
+    nodeVector along{};
+    scalar sizeSqr = 0;
+    for (label d = 0; d < dim; ++d)
+    {
+        along[d] = v[d] - across*normal[d];
+        sizeSqr += sqr(along[d]);
+    }
+    size = std::sqrt(sizeSqr);
+    return along;
 }
 
 
 void Foam::mpm::waterSoilInteraction::makeWall()
 {
     water_.setBed(nullptr);
+    soil_.setBedForce(nullptr);
     wall_.clear();
     const scalar factor = water_.bedRoughness();
     if (!(factor > 0) || !drag_->active()) return;
@@ -144,6 +195,7 @@ void Foam::mpm::waterSoilInteraction::makeWall()
         )
     );
     water_.setBed(&wall_->fields());
+    soil_.setBedForce([this](List<nodeVector>& force) { bedForce(force); });
 }
 
 
@@ -301,7 +353,7 @@ Foam::mpm::waterSoilInteraction::bedState() const
     else
     {
         // Only when it is asked for: its arrays do not last
-        bedSurface surface(grid_, fields_, water_.boundary());
+        bedSurface surface(grid_, fields_, water_.boundary(), bedStress_);
         findSurface(surface);
         b.stress = surface.meanStress();
     }
@@ -316,6 +368,64 @@ Foam::mpm::waterSoilInteraction::bedState() const
            *(model.rhoS() - water_.fluid().rho0())*mag(soil_.gravity())
         );
     return b;
+}
+
+
+void Foam::mpm::waterSoilInteraction::readBedStress(const dictionary& dict)
+{
+    const word form
+    (
+        readChoiceOrDefault(dict, "bedStress", "drag", {"drag", "wallLaw"})
+    );
+    bedStress_ = form == "drag" ? bedSurface::drag : bedSurface::wallLaw;
+    if (bedStress_ == bedSurface::drag) return;
+
+    const char* missing =
+        !(water_.bedRoughness() > 0) ? "turbulence kEpsilon of the "
+      : !drag_->active() ? "drag between the soil and the "
+      : nullptr;
+    if (missing)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword bedStress is " << form << ", which needs "
+            << missing << water_.name() << '.' << nl
+            << "    Allowed here: bedStress drag" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::mpm::waterSoilInteraction::bedForce(List<nodeVector>& force) const
+{
+    const label dim = grid_.nDim();
+    const nodalFields& soil = soil_.nodes();
+    const nodalFields& water = water_.nodes();
+    const std::vector<scalar>& inverseVolume =
+        water_.boundary().inverseVolume();
+
+    force.setSize(grid_.mesh().nCells());
+    forAll(force, celli)
+    {
+        // Each corner gives its cells equal parts
+        nodeVector& here = force[celli];
+        here = nodeVector{};
+        const label first = grid_.boxCell(celli);
+        for (label t = 0; t < (1 << dim); ++t)
+        {
+            label i = first;
+            for (label d = 0; d < dim; ++d)
+            {
+                if (t & (1 << d)) i += grid_.stride(d);
+            }
+            const scalar part =
+                wall_->area(i)*inverseVolume[i]/scalar(1 << dim);
+            if (!(part > 0) || !(water.mass(i) > 0)) continue;
+
+            nodeVector dv = water.velocity[i];
+            if (soil.mass(i) > 0) dv -= soil.velocity[i];
+            here += part*wallStress(i, dv);
+            here[3] += part;
+        }
+    }
 }
 
 
@@ -353,6 +463,7 @@ void Foam::mpm::waterSoilInteraction::readBedLoad
         soil_.setBed([this] { return bedState(); });
     }
 
+    readBedStress(dict);
     bedLoad_ = bedLoadModel::New(dict, b, strictKeywords);
     if (!bedLoad_->active())
     {
@@ -374,7 +485,10 @@ void Foam::mpm::waterSoilInteraction::readBedLoad
             << missing << '.' << nl
             << "    Allowed here: bedLoad none" << exit(FatalIOError);
     }
-    surface_.reset(new bedSurface(grid_, fields_, water_.boundary()));
+    surface_.reset
+    (
+        new bedSurface(grid_, fields_, water_.boundary(), bedStress_)
+    );
     soil_.addBedStress();
 }
 
@@ -401,7 +515,10 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
         water_.fluid().rho0(),
         [&](const label i)
         {
-            return soil.mass(i)*perRhoS*inverseVolume[i];
+            return
+                bedStress_ == bedSurface::wallLaw && wall_->hasBodies()
+              ? wall_->besideBody(i)/(1 + e)
+              : soil.mass(i)*perRhoS*inverseVolume[i];
         },
         [&](const label i) { return water.mass(i) > 0; },
         soil,
@@ -413,6 +530,12 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
             {
                 const label i = nodes_[k];
                 const nodeVector dv = water.velocity[i] - soil.velocity[i];
+                if (bedStress_ == bedSurface::wallLaw)
+                {
+                    if (!wall_->slips(i)) continue;
+                    set(i, wallStress(i, dv), nodeVector{});
+                    continue;
+                }
                 scalar speedSqr = 0;
                 for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
 
@@ -430,7 +553,7 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
                     bulkVolume_[k]*(a_[k] + b_[k]*std::sqrt(speedSqr));
                 nodeVector drag =
                     wall_.valid() && wall_->slips(i)
-                  ? wallImpulse(i, dv, GREAT, resistance/GREAT, 1)
+                  ? wallForce(i, dv, resistance)
                   : resistance*dv;
                 drag[3] = min(e*solidVolume(i), waterVolume(i));
                 set(i, drag, push);
@@ -512,6 +635,7 @@ Foam::mpm::waterSoilInteraction::waterSoilInteraction
     implicitDrag_(implicitDrag),
     fields_(water_.boundary().inverseVolume()),
     nPacked_(0),
+    bedStress_(bedSurface::drag),
     bedState_{0, 0},
     bedStep_(-1)
 {
@@ -561,7 +685,10 @@ void Foam::mpm::waterSoilInteraction::rebuild()
     makeWall();
     if (surface_.valid())
     {
-        surface_.reset(new bedSurface(grid_, fields_, water_.boundary()));
+        surface_.reset
+        (
+            new bedSurface(grid_, fields_, water_.boundary(), bedStress_)
+        );
     }
 }
 
@@ -685,6 +812,7 @@ void Foam::mpm::waterSoilInteraction::startNodes()
             {
                 return perBed*solidVolume(i)*inverseVolume[i];
             },
+            water_.nodesAtBodies(),
             soil,
             water
         );
@@ -917,7 +1045,10 @@ void Foam::mpm::waterSoilInteraction::effects(effectsTable& table) const
     (
         "  bed load", bedLoad_.valid(),
         bedLoad_.valid()
-      ? bedLoad_->type() + ", stress averaged over "
+      ? bedLoad_->type()
+      + (bedStress_ == bedSurface::wallLaw ? ", stress of the law of the wall"
+         : ", stress of drag")
+      + " averaged over "
       + Foam::name(bedLoad_->averagingTime()) + " s"
       : string(soil_.name() + "/bedLoad")
     );

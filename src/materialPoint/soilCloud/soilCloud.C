@@ -318,6 +318,7 @@ void Foam::mpm::soilCloud::checkDictionary
             "bodyForce",
             "inflowOutflow",
             "bedLoad",
+            "bedStress",
             "role",
             "velocityField",
             dict.lookupOrDefault<word>("bedLoad", "none") + "Coeffs"

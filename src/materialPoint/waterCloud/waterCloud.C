@@ -546,14 +546,13 @@ void Foam::mpm::waterCloud::derivedFields
 ) const
 {
     // Once there is a flow to speak of; the largest is the same on all ranks
-    static bool warned = false;
     if
     (
-        turbulence_.valid() && transfer_->affine() && !warned
+        turbulence_.valid() && transfer_->affine() && !warnedOfScheme_
      && globalMaxNut_ > 0 && globalMaxNut_ < schemeViscosity()
     )
     {
-        warned = true;
+        warnedOfScheme_ = true;
         WarningInFunction
             << "cloud " << name() << ": the largest eddy viscosity, "
             << globalMaxNut_ << " m2/s, is less than that of the scheme, "
@@ -616,6 +615,7 @@ Foam::mpm::waterCloud::waterCloud
     bed_(nullptr),
     maxNut_(0),
     globalMaxNut_(0),
+    warnedOfScheme_(false),
     p_
     (
         IOobject
@@ -807,6 +807,12 @@ void Foam::mpm::waterCloud::addBodies(const bodies& all)
         )
     );
     boundary_.add(*wall_);
+}
+
+
+const Foam::mpm::bodyNodes* Foam::mpm::waterCloud::nodesAtBodies() const
+{
+    return wall_.valid() ? &wall_->nodes() : nullptr;
 }
 
 
