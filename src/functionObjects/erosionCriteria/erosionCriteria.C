@@ -583,7 +583,7 @@ Foam::List<Foam::scalarList> Foam::mpm::erosionCriteria::rows() const
         for (label c = station; c < h.bed.size(); c += n)
         {
             flow f(findFlow(u, h, c));
-            if (wallLaw_ && !std::isnan(f.depth))
+            if (wallLaw_ && !std::isnan(f.depth + stresses()[c].x()))
             {
                 const vector& tau = stresses()[c];
                 f.shearVelocity = sign(tau.x())*std::sqrt(mag(tau)/rho);

@@ -68,7 +68,13 @@ Foam::mpm::bedSurface::bedSurface
     flow_(grid.nNodes(), nodeVector{}),
     work_(grid.nNodes(), nodeVector{}),
     meanStress_(0)
-{}
+{
+    if (form_ == wallLaw)
+    {
+        perKnown_.assign(grid.nNodes(), 1);
+        nodes_.countCopies(perKnown_);
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -273,6 +279,66 @@ void Foam::mpm::bedSurface::findLocalStress()
     scalar sumSqr = 0;
     for (label d = 0; d < dim; ++d) sumSqr += sqr(sums[1 + d]);
     meanStress_ = sums[0] > 0 ? std::sqrt(sumSqr)/sums[0] : 0;
+
+    nodes_.share(force_, perKnown_);
+    nodes_.share(area_, perKnown_);
+    goOnBehindWalls();
+}
+
+
+void Foam::mpm::bedSurface::goOnBehindWalls()
+{
+    const label dim = grid_.nDim();
+    const scalar whole = (1 + 1e-6)/grid_.cells().cellVolume();
+
+    // From the wall, and from there a row behind it
+    for (label row = 0; row < 2; ++row)
+    {
+        zero(work_);
+        zero(push_);
+        nodes_.forInner
+        (
+            [&](const label i)
+            {
+                const bool inside =
+                    inverseVolume_[i] > 0 && inverseVolume_[i] < whole;
+                scalar size = 0;
+                for (label d = 0; d < dim; ++d) size += sqr(area_[i][d]);
+                if (inside || size > 0) return;
+
+                label n = 0;
+                for (label d = 0; d < dim; ++d)
+                {
+                    for (const label s : {-grid_.stride(d), grid_.stride(d)})
+                    {
+                        const nodeVector& normal = area_[i + s];
+                        scalar there = 0;
+                        for (label e = 0; e < dim; ++e) there += sqr(normal[e]);
+                        if (!(there > 0)) continue;
+                        work_[i] += force_[i + s];
+                        push_[i] += normal;
+                        ++n;
+                    }
+                }
+                if (!n) return;
+                work_[i] *= scalar(1)/n;
+                push_[i] *= scalar(1)/n;
+            }
+        );
+        nodes_.share(work_, perKnown_);
+        nodes_.share(push_, perKnown_);
+        nodes_.forTouched
+        (
+            [&](const label i)
+            {
+                scalar size = 0;
+                for (label d = 0; d < dim; ++d) size += sqr(area_[i][d]);
+                if (size > 0) return;
+                force_[i] = work_[i];
+                area_[i] = push_[i];
+            }
+        );
+    }
 }
 
 

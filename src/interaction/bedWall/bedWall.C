@@ -127,7 +127,8 @@ Foam::mpm::bedWall::bedWall
     nodes_(grid),
     perCopy_(grid.nNodes(), 1),
     smooth_(grid.nNodes(), nodeVector{}),
-    surface_(grid.nNodes(), nodeVector{})
+    surface_(grid.nNodes(), nodeVector{}),
+    stress_(grid.nNodes(), nodeVector{})
 {
     fields_.ks = ks;
     fields_.a = a;
@@ -175,7 +176,7 @@ void Foam::mpm::bedWall::update
     // What was
     auto clear = [&](const label i)
     {
-        smooth_[i] = surface_[i] = nodeVector{};
+        smooth_[i] = surface_[i] = stress_[i] = nodeVector{};
         fields_.distance[i] = GREAT;
         fields_.frictionVelocity[i] = 0;
     };
@@ -281,18 +282,24 @@ void Foam::mpm::bedWall::update
                 along += sqr(u[d]);
             }
             surface_[i] = s;
-            fields_.frictionVelocity[i] = wallLaw::frictionVelocity
+            const scalar speed =
+                std::sqrt(max(along - sqr(across), scalar(0)));
+            const scalar uStar = wallLaw::frictionVelocity
             (
-                std::sqrt(max(along - sqr(across), scalar(0))),
-                max(height/weights, 0.5*h),
-                fields_.ks,
-                nu_
+                speed, max(height/weights, 0.5*h), fields_.ks, nu_
             );
+            fields_.frictionVelocity[i] = uStar;
+            for (label d = 0; d < dim; ++d)
+            {
+                stress_[i][d] =
+                    (u[d] - across*s[d])*sqr(uStar)/max(speed, VSMALL);
+            }
         }
     );
 
     if (nodes_.alone()) return;
     nodes_.share(surface_, perCopy_);
+    nodes_.share(stress_, perCopy_);
     for (const label i : nodes_.shared())
     {
         smooth_[i] = nodeVector{};

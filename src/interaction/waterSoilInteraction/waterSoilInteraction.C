@@ -130,23 +130,6 @@ Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallForce
 }
 
 
-Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallStress
-(
-    const label node,
-    const nodeVector& dv
-) const
-{
-    scalar speed = 0;
-    const nodeVector along = alongBed(node, dv, speed);
-    return
-        along
-       *(
-            water_.fluid().rho0()*sqr(wall_->frictionVelocity(node))
-           /max(speed, VSMALL)
-        );
-}
-
-
 Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::alongBed
 (
     const label node,
@@ -397,6 +380,7 @@ void Foam::mpm::waterSoilInteraction::readBedStress(const dictionary& dict)
 void Foam::mpm::waterSoilInteraction::bedForce(List<nodeVector>& force) const
 {
     const label dim = grid_.nDim();
+    const scalar rho = water_.fluid().rho0();
     const nodalFields& soil = soil_.nodes();
     const nodalFields& water = water_.nodes();
     const std::vector<scalar>& inverseVolume =
@@ -418,12 +402,13 @@ void Foam::mpm::waterSoilInteraction::bedForce(List<nodeVector>& force) const
             }
             const scalar part =
                 wall_->area(i)*inverseVolume[i]/scalar(1 << dim);
-            if (!(part > 0) || !(water.mass(i) > 0)) continue;
-
-            nodeVector dv = water.velocity[i];
-            if (soil.mass(i) > 0) dv -= soil.velocity[i];
-            here += part*wallStress(i, dv);
+            if (!(part > 0)) continue;
             here[3] += part;
+            if (!wall_->slips(i) || !(water.mass(i) > 0 && soil.mass(i) > 0))
+            {
+                continue;
+            }
+            here += part*rho*wall_->stress(i);
         }
     }
 }
@@ -509,10 +494,11 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
         gravity[d] = water_.acceleration()[grid_.cells().axis(d)];
     }
 
+    const scalar rho = water_.fluid().rho0();
     surface.update
     (
         1/(1 + e),
-        water_.fluid().rho0(),
+        rho,
         [&](const label i)
         {
             return
@@ -529,13 +515,13 @@ void Foam::mpm::waterSoilInteraction::findSurface(bedSurface& surface) const
             for (label k = 0; k < n; ++k)
             {
                 const label i = nodes_[k];
-                const nodeVector dv = water.velocity[i] - soil.velocity[i];
                 if (bedStress_ == bedSurface::wallLaw)
                 {
                     if (!wall_->slips(i)) continue;
-                    set(i, wallStress(i, dv), nodeVector{});
+                    set(i, rho*wall_->stress(i), nodeVector{});
                     continue;
                 }
+                const nodeVector dv = water.velocity[i] - soil.velocity[i];
                 scalar speedSqr = 0;
                 for (label d = 0; d < dim; ++d) speedSqr += sqr(dv[d]);
 
