@@ -13,8 +13,8 @@ sys.path.insert(0, str(Path(os.environ["MPMFOAM_DIR"])/"etc"/"python"))
 from mpmfoam import style  # noqa: E402
 from mpmfoam.case import Case  # noqa: E402
 
-H, D = 0.025, 0.1
-X, Y = np.arange(-0.2, 0.4 + H/2, H), np.arange(0, 0.225 + H/2, H)
+H, D = 0.025, 0.125
+X, Y = np.arange(-0.2, 0.3 + H/2, H), np.arange(0, 0.2 + H/2, H)
 BULK = 2650/1.667
 
 
@@ -41,7 +41,7 @@ def main():
     end = case.times()[-1]
     change = 1e3*(level(case, end) - level(case, "0"))
     tau = stress(case, end)
-    fig, axes = style.figure(2, 1, height=2.2)
+    fig, axes = style.plt.subplots(1, 2, figsize=(8, 3), layout="constrained")
     panels = [
         (change, "change of the bed, mm", "RdBu_r", np.abs(change).max()),
         (tau, "stress on the bed, Pa", "viridis", None)]
@@ -56,7 +56,7 @@ def main():
         ax.fill(0.5*np.cos(t), 0.5*np.sin(t), color="0.6")
         ax.set(xlabel="x/D", ylabel="y/D", aspect="equal",
                title=f"{title}, {end} s")
-        fig.colorbar(image, ax=ax)
+        fig.colorbar(image, ax=ax, shrink=0.7)
     style.save(fig, "bed.png")
     near = np.hypot(*np.meshgrid(X[:-1] + H/2, Y[:-1] + H/2,
                                  indexing="ij")) < D
