@@ -44,14 +44,17 @@ from paraview.simple import (
     HideUnusedScalarBars, OpenFOAMReader, Plane, Render, SaveScreenshot, Show,
     Text, TrivialProducer)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkUnstructuredGrid)
+    VTK_HEXAHEDRON, vtkCompositeDataSet, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import (
     vtkAppendFilter, vtkCellDataToPointData, vtkContourFilter,
     vtkPolyDataNormals)
 from vtkmodules.vtkFiltersGeneral import vtkClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+
+from mpmfoam import foamDict
 
 WIDTH = 1200        # pixels
 TEXT = [0.1, 0.1, 0.1]
@@ -237,6 +240,47 @@ def showBodies(mesh, view, lift):
     paint(display, SOLID)
     display.Position = lift
     return shown
+
+
+def plates(case):
+    """Corners of the thin plates of a case, which have hardly a negative
+    distance"""
+    bodies = foamDict.read(
+        case/"constant"/"materialPointProperties").get("bodies", {})
+    for body in bodies.values():
+        surface = body.get("surface", {}) if isinstance(body, dict) else {}
+        if surface.get("type") != "plate":
+            continue
+        start, end = (np.array(surface[key], dtype=float)
+                      for key in ["start", "end"])
+        across = np.array(surface.get("across", (0, 0, 0)), dtype=float)
+        yield start, end, across, float(surface["thickness"])
+
+
+def showPlates(case, view, meshPoints, pixel, lift):
+    """Thin plates in grey, two pixels thick at least"""
+    low, high = meshPoints.min(axis=0), meshPoints.max(axis=0)
+    flat = np.argmin(high - low)
+    for start, end, across, thickness in plates(case):
+        if not across.any():
+            # Across the plane of the case
+            start[flat] = end[flat] = 0.5*(low + high)[flat]
+            across[flat] = (high - low)[flat]
+        normal = np.cross(end - start, across)
+        normal *= max(thickness, 2*pixel)/np.linalg.norm(normal)
+        points = vtkPoints()
+        for k in (-0.5, 0.5):
+            for at, side in [(start, -0.5), (end, -0.5), (end, 0.5),
+                             (start, 0.5)]:
+                x = at + side*across + k*normal
+                points.InsertNextPoint(np.clip(x, low, high))
+        solid = vtkUnstructuredGrid()
+        solid.SetPoints(points)
+        solid.InsertNextCell(VTK_HEXAHEDRON, 8, range(8))
+        display = Show(producerOf(solid), view)
+        display.SetRepresentationType("Surface")
+        paint(display, SOLID)
+        display.Position = lift
 
 
 def showHoles(surface, view):
@@ -541,6 +585,7 @@ def main():
     towards = np.array(view.CameraPosition) - np.array(view.CameraFocalPoint)
     lift = list(cellSize*towards/np.linalg.norm(towards)) \
         if flat else [0, 0, 0]
+    showPlates(case, view, meshPoints, 1/pixels, [2*c for c in lift])
 
     label = Text()
     labelDisplay = Show(label, view)

@@ -352,6 +352,55 @@ void Foam::mpm::backgroundGrid::findTwins()
 }
 
 
+void Foam::mpm::backgroundGrid::findSeconds()
+{
+    second_.clear();
+    ownView_.clear();
+    firstOf_.clear();
+    plateOf_.clear();
+    if (!plated()) return;
+
+    const scalar far = platedReach*lattice_->minSpacing();
+    second_.setSize(nFirst(), -1);
+    ownView_.setSize(nFirst(), plate::none);
+    labelList plateOfNode(nBoxNodes(), -1);
+    DynamicList<label> firsts;
+    for (label node = 0; node < nFirst(); ++node)
+    {
+        const point x(nodePosition(node));
+        for (size_t p = 0; p < plates_.size(); ++p)
+        {
+            const label view = plates_[p].viewAt(x);
+            if (view == plate::none || mag(plates_[p].height(x)) > far)
+            {
+                continue;
+            }
+            ownView_[node] = view;
+            second_[node] = nFirst() + firsts.size();
+            firsts.append(node);
+            plateOfNode[boxNode(node)] = label(p);
+            break;
+        }
+    }
+    firstOf_.transfer(firsts);
+
+    plateOf_.setSize(nBoxNodes(), -1);
+    for (const label cell : boxCell_)
+    {
+        for (label t = 0; t < reachSize(); ++t)
+        {
+            const label p =
+                plateOfNode[cell + reachOffset() + reachNode(t)];
+            if (p >= 0) plateOf_[cell] = p;
+        }
+    }
+
+    // Nor are seconds cells
+    meshCell_.setSize(nNodes(), -1);
+    cellRank_.setSize(nNodes(), missing);
+}
+
+
 void Foam::mpm::backgroundGrid::buildExchange()
 {
     // Nodes in reach of own cells, and their neighbours
@@ -409,16 +458,22 @@ void Foam::mpm::backgroundGrid::buildExchange()
             {
                 if (!used[node] || (r == own && node == theirs)) return;
                 const int64_t id = globalId(node);
-                candidates[r].push_back({id, node});
+                const int64_t nSides = reachSize() + 2;
+                auto add = [&](const int64_t side, const label copy)
+                {
+                    candidates[r].push_back({id + nIds*side, copy});
+                    if (plated() && second_[copy] >= 0)
+                    {
+                        candidates[r].push_back
+                            ({id + nIds*(nSides + side), second_[copy]});
+                    }
+                };
+                add(0, node);
 
                 label i = firstTwin.lookup(node, twinOf_.size());
                 for (; i < twinOf_.size() && twinOf_[i].first() == node; ++i)
                 {
-                    candidates[r].push_back
-                    ({
-                        id + nIds*(1 + int64_t(twinOf_[i].second())),
-                        nBoxNodes() + i
-                    });
+                    add(1 + int64_t(twinOf_[i].second()), nBoxNodes() + i);
                 }
             }
         );
@@ -464,13 +519,35 @@ void Foam::mpm::backgroundGrid::rebuild()
     exchangeCellOwners();
     checkWallThickness();
     findTwins();
+    findSeconds();
     buildExchange();
+}
+
+
+void Foam::mpm::backgroundGrid::setPlates(const std::vector<plate>& plates)
+{
+    plates_ = plates;
+}
+
+
+bool Foam::mpm::backgroundGrid::inMesh(const point& x) const
+{
+    index3 i;
+    i = 0;
+    bool found = true;
+    for (label d = 0; d < nDim(); ++d)
+    {
+        i[d] = lattice_->cellCoordinate(d, x[lattice_->axis(d)]) - lower_[d];
+        found = found && i[d] >= 0 && i[d] < nNodes_[d];
+    }
+    found = found && ownCell(index(i));
+    return returnReduce(found, orOp<bool>());
 }
 
 
 Foam::point Foam::mpm::backgroundGrid::nodePosition(const label node) const
 {
-    const index3 i = coordinate(node);
+    const index3 i = coordinate(boxNode(node));
     point x(Zero);
     for (label d = 0; d < nDim(); ++d)
     {
@@ -485,7 +562,12 @@ Foam::point Foam::mpm::backgroundGrid::nodePosition(const label node) const
 size_t Foam::mpm::backgroundGrid::memory() const
 {
     return sizeof(label)
-       *size_t(cellRank_.size() + meshCell_.size() + boxCell_.size());
+       *size_t
+        (
+            cellRank_.size() + meshCell_.size() + boxCell_.size()
+          + second_.size() + ownView_.size() + firstOf_.size()
+          + plateOf_.size()
+        );
 }
 
 // ************************************************************************* //

@@ -3,6 +3,7 @@
 #include "../lattice/latticeDiagnosis.C"
 #include "../neighbourRanks/neighbourRanks.C"
 #include "../nodeExchange/nodeExchange.C"
+#include "../plate/plate.C"
 #include "../backgroundGrid/backgroundGrid.C"
 #include "../shapeFunctions/reachWeights.C"
 #include "../inflowZone/inflowZone.C"

@@ -68,6 +68,7 @@ void Foam::mpm::nodeBoundary::findControlVolumes()
     {
         v = v > 0 ? 1/v : 0;
     }
+    grid_.copyToSeconds(inverseVolume_);
 }
 
 

@@ -195,6 +195,38 @@ void Foam::mpm::nodeFolding::addStencil
 }
 
 
+void Foam::mpm::nodeFolding::addViews(const label cell, const bool nodeWalls)
+{
+    const label size = grid_.reachSize();
+    const label own = stencil(cell);
+    for (const label view : {plate::front, plate::back})
+    {
+        viewStencil_[2*cell + view - plate::front] =
+            label(target_.size())/size;
+        for (label t = 0; t < size; ++t)
+        {
+            const label node = cell + grid_.reachOffset() + grid_.reachNode(t);
+            auto seen = [&](const label first)
+            {
+                return first < 0 ? first : grid_.seen(first, view);
+            };
+            const size_t i = size_t(own)*size + t;
+            const bool plain = own < 0;
+            target_.push_back(seen(plain ? node : target_[i]));
+            ghost_.push_back(seen(plain ? node : ghost_[i]));
+            sign_.push_back(plain ? ones() : nodeVector(sign_[i]));
+            shift_.push_back(plain ? nodeVector{} : nodeVector(shift_[i]));
+            if (nodeWalls)
+            {
+                wall_.push_back(plain ? -1 : seen(wall_[i]));
+                wallFactor_.push_back
+                    (plain ? 2*ones() : nodeVector(wallFactor_[i]));
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::nodeFolding::nodeFolding
@@ -213,18 +245,39 @@ Foam::mpm::nodeFolding::nodeFolding
             << "DebugSwitches: mpmMirrorWalls 0" << nl
             << "    Walls do not mirror. Results are not to be trusted."
             << endl;
-        return;
     }
 
     std::vector<fold> folds(grid.reachSize());
-    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
+    for (label celli = 0; mirrors && celli < grid.mesh().nCells(); ++celli)
     {
         addStencil(sides, celli, nodeWalls, folds);
+    }
+    if (!grid.plated()) return;
+
+    viewStencil_.setSize(2*grid.nBoxNodes(), -1);
+    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
+    {
+        const label cell = grid.boxCell(celli);
+        if (grid.plateOf(cell) >= 0) addViews(cell, nodeWalls);
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::mpm::nodeFolding::stencilOfMiddle(const label cell) const
+{
+    if (grid_.plateOf(cell) < 0) return stencil(cell);
+
+    const lattice& cells = grid_.cells();
+    point middle(grid_.nodePosition(cell));
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        middle[cells.axis(d)] += 0.5*cells.spacing(d);
+    }
+    return stencil(cell, grid_.view(cell, middle));
+}
+
 
 void Foam::mpm::nodeFolding::foldPressureAs(const nodeFolding& other)
 {
@@ -234,6 +287,14 @@ void Foam::mpm::nodeFolding::foldPressureAs(const nodeFolding& other)
     {
         const label here = stencilIndex_[cell];
         if (here >= 0) pressureStencil_[here] = other.stencil(cell);
+        if (here < 0 || other.stencil(cell) < 0 || grid_.plateOf(cell) < 0)
+        {
+            continue;
+        }
+        for (const label view : {plate::front, plate::back})
+        {
+            pressureStencil_[stencil(cell, view)] = other.stencil(cell, view);
+        }
     }
 }
 
@@ -302,13 +363,16 @@ void Foam::mpm::nodeFolding::record
     for (label celli = 0; celli < grid_.mesh().nCells(); ++celli)
     {
         const label cell = grid_.boxCell(celli);
-        const label s = stencil(cell);
-        for (label t = 0; s >= 0 && t < grid_.reachSize(); ++t)
+        const label own = stencil(cell);
+        const label nViews = grid_.plateOf(cell) < 0 ? 1 : 3;
+        for (label view = 0; own >= 0 && view < nViews; ++view)
+        for (label t = 0; t < grid_.reachSize(); ++t)
         {
+            const label s = stencil(cell, view);
             foldNode(sides, celli, t, f);
             std::array<label, 7> key;
             key.fill(-1);
-            key[0] = f.target;
+            key[0] = at(target_, s)[t];
             bool any = false;
             for (label d = 0; d < nDim; ++d)
             {
@@ -402,7 +466,8 @@ size_t Foam::mpm::nodeFolding::memory() const
     return
         sizeof(label)
        *(
-            stencilIndex_.size() + target_.size() + ghost_.size()
+            stencilIndex_.size() + viewStencil_.size()
+          + target_.size() + ghost_.size()
           + wall_.size() + slot_.size()
         )
       + sizeof(mirrorSlot)*slots_.size()

@@ -65,6 +65,7 @@ bool Foam::mpm::nodeTiles::makeTile
 (
     const label node,
     const label part,
+    const label view,
     label& cell,
     record& tile
 ) const
@@ -87,7 +88,7 @@ bool Foam::mpm::nodeTiles::makeTile
     if (cell < 0 || !grid.ownCell(cell)) return false;
 
     // Cells at a wall have parts that do not touch it
-    const label stencil = folding_.stencil(cell);
+    const label stencil = folding_.stencil(cell, view);
     if (stencil >= 0)
     {
         const label* target = folding_.targets(stencil) + tile.offset;
@@ -131,7 +132,7 @@ Foam::mpm::nodeTiles::nodeTiles
         {
             label cell;
             record tile;
-            if (!makeTile(node, part, cell, tile)) continue;
+            if (!makeTile(node, part, plate::none, cell, tile)) continue;
 
             const label own =
                 zoneOfCell.empty() || tile.stencil < 0
@@ -148,6 +149,41 @@ Foam::mpm::nodeTiles::nodeTiles
                 zone.push_back(own);
             }
             tileIndex_[nParts_*cell + part] = t;
+        }
+    }
+    nPlain_ = size();
+    if (grid.plated()) addViews();
+}
+
+
+void Foam::mpm::nodeTiles::addViews()
+{
+    const backgroundGrid& grid = folding_.grid();
+    viewIndex_.setSize(2*nParts_*grid.nBoxNodes(), -1);
+    for (label node = 0; node < grid.nBoxNodes(); ++node)
+    {
+        for (const label view : {plate::front, plate::back})
+        {
+            const label firstHere = size();
+            for (label part = 0; part < nParts_; ++part)
+            {
+                label cell;
+                record tile;
+                if
+                (
+                    !makeTile(node, part, view, cell, tile)
+                 || grid.plateOf(cell) < 0
+                ) continue;
+
+                label t = firstHere;
+                while (t < size() && !foldAlike(tile, tiles_[t])) ++t;
+                if (t == size())
+                {
+                    tiles_.push_back(tile);
+                    viewOf_.push_back(view);
+                }
+                viewIndex_[2*(nParts_*cell + part) + view - plate::front] = t;
+            }
         }
     }
 }
@@ -182,7 +218,10 @@ std::vector<char> Foam::mpm::nodeTiles::with(const bitSet& nodes) const
 
 size_t Foam::mpm::nodeTiles::memory() const
 {
-    return sizeof(label)*tileIndex_.size() + sizeof(record)*tiles_.size();
+    return
+        sizeof(label)
+       *(tileIndex_.size() + viewIndex_.size() + viewOf_.size())
+      + sizeof(record)*tiles_.size();
 }
 
 // ************************************************************************* //

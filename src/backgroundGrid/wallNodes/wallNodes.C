@@ -33,6 +33,8 @@ Foam::mpm::wallNodes::wallNodes
     );
     grid.exchange().sum(count_);
     grid.exchange().sum(given_);
+    grid.copyToSeconds(count_);
+    grid.copyToSeconds(given_);
 }
 
 
@@ -62,7 +64,7 @@ bool Foam::mpm::wallNodes::blocked
 {
     for (label corner = 0; corner < (1 << grid_.nDim()); ++corner)
     {
-        label cell = node;
+        label cell = grid_.boxNode(node);
         bool inOrthant = true;
         for (label d = 0; d < grid_.nDim(); ++d)
         {
@@ -96,7 +98,9 @@ Foam::label Foam::mpm::wallNodes::next
     const label side
 ) const
 {
-    const label n = node - (side % 2 ? 1 : -1)*grid_.stride(side/2);
+    label n =
+        grid_.boxNode(node) - (side % 2 ? 1 : -1)*grid_.stride(side/2);
+    if (grid_.plated()) n = grid_.seen(n, grid_.viewOf(node));
     return nSides(node) > 1 || nSides(n) > 0 ? -1 : n;
 }
 

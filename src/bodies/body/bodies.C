@@ -14,6 +14,8 @@ void Foam::mpm::bodies::checkThickness() const
     const scalar least = minThickness*h;
     for (const body& b : bodies_)
     {
+        if (b.thinPlate()) continue;
+
         // Straight through the body from nodes just inside of its surface
         scalar thinnest = b.thinnest();
         point where(b.thinnestAt());
@@ -92,6 +94,40 @@ void Foam::mpm::bodies::checkOverlap() const
 }
 
 
+void Foam::mpm::bodies::checkPlates() const
+{
+    const scalar far = body::reach*grid_.cells().minSpacing();
+    forAll(bodies_, p)
+    {
+        if (!bodies_[p].thinPlate()) continue;
+        if (anyMoves_)
+        {
+            FatalIOErrorInFunction(bodies_[p].dict())
+                << "plate " << bodies_[p].name()
+                << " is in a scene with a body that moves." << nl
+                << "    Allowed: bodies that are fixed"
+                << exit(FatalIOError);
+        }
+        for (label i = 0; i < grid_.nBoxNodes(); ++i)
+        {
+            const point x(grid_.nodePosition(i));
+            if (!(bodies_[p].distance(x) < far)) continue;
+            forAll(bodies_, b)
+            {
+                if (b == p || !(bodies_[b].distance(x) < far)) continue;
+                FatalIOErrorInFunction(bodies_[p].dict())
+                    << "plate " << bodies_[p].name() << " and body "
+                    << bodies_[b].name() << " are both nearer than " << far
+                    << " m to " << x << '.' << nl
+                    << "    Allowed: " << 2*far << " m (" << 2*body::reach
+                    << " cells) or more between a plate and another body"
+                    << exit(FatalIOError);
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::bodies::bodies
@@ -132,6 +168,17 @@ Foam::mpm::bodies::bodies
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+std::vector<Foam::mpm::plate> Foam::mpm::bodies::plates() const
+{
+    std::vector<plate> all;
+    for (const body& b : bodies_)
+    {
+        if (b.thinPlate()) all.push_back(*b.thinPlate());
+    }
+    return all;
+}
+
+
 Foam::label Foam::mpm::bodies::nearest
 (
     const point& x,
@@ -158,6 +205,7 @@ void Foam::mpm::bodies::start(const scalar time)
     for (body& b : bodies_) b.motion().start(time);
     checkThickness();
     checkOverlap();
+    checkPlates();
 }
 
 

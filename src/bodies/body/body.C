@@ -10,6 +10,145 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::mpm::body::checkInside(const backgroundGrid& grid) const
+{
+    const lattice& cells = grid.cells();
+    const boundBox& mesh = grid.mesh().bounds();
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        const label axis = cells.axis(d);
+        if
+        (
+            bounds_.min()[axis] > mesh.max()[axis]
+         || bounds_.max()[axis] < mesh.min()[axis]
+        )
+        {
+            FatalIOErrorInFunction(subDictOf(dict_, "surface"))
+                << "body " << name_ << " is outside of the mesh: it goes from "
+                << bounds_.min() << " to " << bounds_.max() << ", the mesh from "
+                << mesh.min() << " to " << mesh.max() << '.' << nl
+                << "    Allowed: a body of which a part is in the mesh"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::mpm::body::makePlate
+(
+    const backgroundGrid& grid,
+    const bool strict
+)
+{
+    const dictionary& dict = subDictOf(dict_, "surface");
+    const lattice& cells = grid.cells();
+    const bool is3D = cells.nDim() == 3;
+    wordList known({"type", "start", "end", "thickness"});
+    if (is3D) known.append("across");
+    checkKeywords(dict, known, strict);
+    if (motion_->moves())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "keyword type is " << dict_.get<word>("type") << ", but body "
+            << name_ << " is a plate, which stands still." << nl
+            << "    Allowed: fixed; a box of " << 2.5*cells.minSpacing()
+            << " m (2.5 cells) or more may move" << exit(FatalIOError);
+    }
+
+    point start(dict.get<point>("start"));
+    point end(dict.get<point>("end"));
+    vector across(Zero);
+    if (is3D) across = dict.get<vector>("across");
+    else
+    {
+        const label axis = cells.axis(2);
+        start[axis] = end[axis] = cells.midPlane();
+        across[axis] = 1;
+    }
+    const scalar h = cells.minSpacing();
+    if (!(mag(end - start) > h))
+    {
+        FatalIOErrorInFunction(dict)
+            << "keywords start and end are " << start << " and " << end
+            << ", in the plane of the case " << mag(end - start) << " m apart."
+            << nl << "    Allowed: more than " << h << " m, a cell"
+            << exit(FatalIOError);
+    }
+    if
+    (
+        is3D
+     && (
+            !(mag(across) > h)
+         || mag(across & (end - start)) > 1e-6*mag(across)*mag(end - start)
+        )
+    )
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword across is " << across << ", the middle line "
+            << end - start << '.' << nl << "    Allowed: more than " << h
+            << " m, a cell, at a right angle to the middle line"
+            << exit(FatalIOError);
+    }
+    plate_.reset
+    (
+        new plate
+        (
+            start, end, across, readPositive(dict, "thickness", dimLength),
+            !is3D
+        )
+    );
+    bounds_ = plate_->bounds();
+    checkInside(grid);
+
+    // Behind walls it goes on as far as nodes are in reach
+    const label nEdges = is3D ? 4 : 2;
+    const scalar step = 0.25*h;
+    for (label edge = 0; edge < nEdges; ++edge)
+    {
+        scalar length = 0;
+        bool outside = true;
+        while (outside && length < 2*reach*h)
+        {
+            const pointField beyond
+            (
+                plate_->edge(edge, length > 0 ? length : 1e-3*h, step)
+            );
+            for (const point& x : beyond)
+            {
+                if (!outside) break;
+                outside = !grid.inMesh(x);
+            }
+            if (outside) length += step;
+        }
+        if (length > step) plate_->extend(edge, length - step);
+    }
+    bounds_ = plate_->bounds();
+    far_ = (reach + 1)*h;
+
+    // Images of the plate are not looked for
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        if (!cells.periodic(d)) continue;
+        const label axis = cells.axis(d);
+        const scalar from = cells.origin(d);
+        const scalar to = from + cells.nCells(d)*cells.spacing(d);
+        const bool along = mag(plate_->normal()[axis]) < 1e-6;
+        const bool inner =
+            bounds_.min()[axis] > from + far_ && bounds_.max()[axis] < to - far_;
+        const bool whole =
+            along && bounds_.min()[axis] < from - 2*h
+         && bounds_.max()[axis] > to + 2*h;
+        if (inner || whole) continue;
+        FatalIOErrorInFunction(dict)
+            << "plate " << name_ << " goes from " << bounds_.min() << " to "
+            << bounds_.max() << ", near to a cyclic patch." << nl
+            << "    Allowed: " << far_ << " m or more away from it, or from one"
+            << " end of the cyclic direction to the other, along it"
+            << exit(FatalIOError);
+    }
+}
+
+
 void Foam::mpm::body::sample
 (
     const backgroundGrid& grid,
@@ -53,26 +192,7 @@ void Foam::mpm::body::sample
         region.min() = max(region.min(), mesh.min() - vector::uniform(far));
         region.max() = min(region.max(), mesh.max() + vector::uniform(far));
     }
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        const label axis = cells.axis(d);
-        if
-        (
-            !motion_->moves()
-         && (
-                bounds_.min()[axis] > mesh.max()[axis]
-             || bounds_.max()[axis] < mesh.min()[axis]
-            )
-        )
-        {
-            FatalIOErrorInFunction(dict)
-                << "body " << name_ << " is outside of the mesh: it goes from "
-                << bounds_.min() << " to " << bounds_.max() << ", the mesh from "
-                << mesh.min() << " to " << mesh.max() << '.' << nl
-                << "    Allowed: a body of which a part is in the mesh"
-                << exit(FatalIOError);
-        }
-    }
+    if (!motion_->moves()) checkInside(grid);
 
     const scalar spacing = 0.5*h;
     const int64_t n = signedDistance::nSamples(region, spacing, cells);
@@ -117,7 +237,12 @@ Foam::mpm::body::body
     checkKeywords(dict_, known, strict);
 
     motion_ = bodyMotion::New(dict_, grid.cells(), strict);
-    sample(grid, strict);
+    const dictionary surface(subDictOrEmpty(dict_, "surface"));
+    if (surface.lookupOrDefault<word>("type", word::null) == "plate")
+    {
+        makePlate(grid, strict);
+    }
+    else sample(grid, strict);
 }
 
 
@@ -131,6 +256,12 @@ Foam::dictionary Foam::mpm::body::wallOf(const word& cloud) const
 
 Foam::boundBox Foam::mpm::body::bounds() const
 {
+    if (plate_.valid())
+    {
+        // As far as second records, and all cells in whose reach they are
+        const vector far(vector::uniform(2*far_));
+        return boundBox(bounds_.min() - far, bounds_.max() + far);
+    }
     const boundBox& samples = distance_->bounds();
     if (!motion_->moves()) return samples;
 

@@ -86,7 +86,10 @@ void Foam::mpm::bodyContact::place()
     DynamicList<label> near;
     for (label k = 0; k < nodes_.size(); ++k)
     {
-        if (nodes_[k].phi < most && magSqr(nodes_[k].n) > 0) near.append(k);
+        if (nodes_[k].phi < most && nodes_[k].faced && magSqr(nodes_[k].n) > 0)
+        {
+            near.append(k);
+        }
     }
     near_ = near;
     inRange_.reset();

@@ -9,10 +9,58 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-int64_t Foam::mpm::bodyNodes::globalId(const index3& at) const
+int64_t Foam::mpm::bodyNodes::nIds() const
+{
+    int64_t n = 1;
+    for (label d = 0; d < grid_.nDim(); ++d) n *= width(d);
+    return n;
+}
+
+
+Foam::mpm::index3 Foam::mpm::bodyNodes::coordinateOf(const int64_t id) const
+{
+    index3 at;
+    at = 0;
+    int64_t rest = id % nIds();
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        at[d] = label(rest % width(d)) - backgroundGrid::margin;
+        rest /= width(d);
+    }
+    return at;
+}
+
+
+Foam::point Foam::mpm::bodyNodes::positionOf(const index3& at) const
 {
     const lattice& cells = grid_.cells();
-    int64_t id = 0;
+    point x(Zero);
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        x[cells.axis(d)] = cells.origin(d) + at[d]*cells.spacing(d);
+    }
+    if (cells.nDim() == 2) x[cells.axis(2)] = cells.midPlane();
+    return x;
+}
+
+
+const Foam::mpm::plate* Foam::mpm::bodyNodes::plateAt
+(
+    const label number
+) const
+{
+    return bodies_[nodes_[number].body].thinPlate();
+}
+
+
+int64_t Foam::mpm::bodyNodes::globalId
+(
+    const index3& at,
+    const bool second
+) const
+{
+    const lattice& cells = grid_.cells();
+    int64_t id = second ? 1 : 0;
     for (label d = cells.nDim() - 1; d >= 0; --d)
     {
         const label n = cells.nCells(d);
@@ -90,6 +138,12 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
                 at[d] = i[d] + grid_.lower(d);
             }
             own.emplace_back(globalId(at), node);
+
+            const label second = bodies_[b].thinPlate()
+              ? grid_.second(node) : -1;
+            if (second < 0) continue;
+            numberOf_[second] = 0;
+            own.emplace_back(globalId(at, true), second);
         }
     }
     std::sort(own.begin(), own.end());
@@ -118,24 +172,39 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
     for (size_t k = 0; k < id_.size(); ++k)
     {
         node& n = nodes_[k];
-        n.x = Zero;
-        int64_t rest = id_[k];
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            const label i = label(rest % width(d)) - backgroundGrid::margin;
-            n.x[cells.axis(d)] = cells.origin(d) + i*cells.spacing(d);
-            rest /= width(d);
-        }
-        if (cells.nDim() == 2) n.x[cells.axis(2)] = cells.midPlane();
+        n.x = positionOf(coordinateOf(id_[k]));
 
         n.body = bodies_.nearest(n.x, n.phi);
-        const vector g(bodies_[n.body].gradient(n.x, h));
-        n.smooth = magSqr(g) > 0.94;
+        const plate* thin = bodies_[n.body].thinPlate();
+        if (!thin)
+        {
+            const vector g(bodies_[n.body].gradient(n.x, h));
+            n.smooth = magSqr(g) > 0.94;
+            n.faced = true;
 
-        // In the middle of a body there is no nearest point of the surface
-        const vector fine(bodies_[n.body].gradient(n.x, 0.5*h));
-        const vector& longer = mag(fine) > mag(g) ? fine : g;
-        n.n = mag(longer) > SMALL ? longer/mag(longer) : vector(Zero);
+            // In the middle of a body there is no nearest point of the surface
+            const vector fine(bodies_[n.body].gradient(n.x, 0.5*h));
+            const vector& longer = mag(fine) > mag(g) ? fine : g;
+            n.n = mag(longer) > SMALL ? longer/mag(longer) : vector(Zero);
+        }
+        else
+        {
+            n.smooth = thin->smooth(n.x, h);
+            if (id_[k] < nIds())
+            {
+                const plate::surface near(thin->nearest(n.x));
+                n.n = near.normal;
+                n.faced = near.face;
+            }
+            else
+            {
+                // Behind the face of the other side
+                n.phi = -mag(thin->height(n.x)) - 0.5*thin->thickness();
+                n.n = (thin->viewAt(n.x) == plate::front ? -1 : 1)
+                   *thin->normal();
+                n.faced = true;
+            }
+        }
         n.V = 0;
         n.W = Zero;
         n.A = Zero;
@@ -169,52 +238,246 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
 }
 
 
-void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
+//- A cell in parts, for integrals with the functions of the nodes in its reach
+class Foam::mpm::bodyNodes::dividedCell
 {
-    const lattice& cells = grid_.cells();
-    const label nDim = cells.nDim();
-    const label T = grid_.reachWidth();
-    const label size = grid_.reachSize();
-    const scalar h = cells.minSpacing();
+    const backgroundGrid& grid_;
+    const label n_;
 
-    constexpr label nSub = 4;
-    const label nSubs = nDim == 3 ? nSub*nSub*nSub : nSub*nSub;
-    const scalar dV = cells.cellVolume()/nSubs;
-    const scalar diagonal = 0.5*std::sqrt(scalar(nDim))*h;
+    //- Weights at the middles of the parts, the same in each cell
+    struct weights { scalar of[4]; };
+    std::vector<weights> w_;
 
-    // Weights at the points that a cell is divided by, the same in each cell
-    scalar w1[nSub][4], unused[4];
-    for (label s = 0; s < nSub; ++s)
-    {
-        reachWeights(grid_, (s + 0.5)/nSub, w1[s], unused);
-    }
-
-    // Weighted volume of the body, and its first and second moment about the
-    // lower corner of the cell, in cells, by node in reach
-    struct moments { scalar V = 0; vector first = Zero; tensor second = Zero; };
-    auto addPoint = [&](moments* m, const label sub, const scalar volume)
+    index3 coordinate(const label sub) const
     {
         index3 s;
         label rest = sub;
         for (label d = 0; d < 3; ++d)
         {
-            s[d] = d < nDim ? rest % nSub : 0;
-            rest /= nSub;
+            s[d] = d < grid_.nDim() ? rest % n_ : 0;
+            rest /= n_;
         }
-        vector y(Zero);
-        for (label d = 0; d < nDim; ++d) y[d] = (s[d] + 0.5)/nSub;
-        const tensor yy(y*y);
-        for (label t = 0; t < size; ++t)
+        return s;
+    }
+
+public:
+
+    dividedCell(const backgroundGrid& grid, const label n)
+    :
+        grid_(grid),
+        n_(n),
+        w_(n)
+    {
+        scalar unused[4];
+        for (label s = 0; s < n; ++s)
         {
-            scalar w = volume*w1[s[0]][t % T]*w1[s[1]][(t/T) % T];
-            if (nDim == 3) w *= w1[s[2]][t/(T*T)];
+            reachWeights(grid, (s + 0.5)/n, w_[s].of, unused);
+        }
+    }
+
+    label size() const { return grid_.nDim() == 3 ? n_*n_*n_ : n_*n_; }
+
+    //- Middle of a part, from the lower corner of the cell
+    point position(const point& corner, const label sub) const
+    {
+        const lattice& cells = grid_.cells();
+        const index3 s = coordinate(sub);
+        point x(corner);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            x[cells.axis(d)] += (s[d] + 0.5)/n_*cells.spacing(d);
+        }
+        return x;
+    }
+
+    //- Add a volume in a part, by node in reach
+    void add
+    (
+        std::vector<moments>& m,
+        const label sub,
+        const scalar volume
+    ) const
+    {
+        const label T = grid_.reachWidth();
+        const index3 s = coordinate(sub);
+        vector y(Zero);
+        for (label d = 0; d < grid_.nDim(); ++d) y[d] = (s[d] + 0.5)/n_;
+        const tensor yy(y*y);
+        for (size_t t = 0; t < m.size(); ++t)
+        {
+            const label i = label(t);
+            scalar w = volume*w_[s[0]].of[i % T]*w_[s[1]].of[(i/T) % T];
+            if (grid_.nDim() == 3) w *= w_[s[2]].of[i/(T*T)];
             m[t].V += w;
             m[t].first += w*y;
             m[t].second += w*yy;
         }
-    };
+    }
+};
+
+
+void Foam::mpm::bodyNodes::addFolded
+(
+    const label cell,
+    const label t,
+    const label k,
+    const moments& m,
+    const nodeFolding& folding,
+    std::vector<scalar>& sums
+) const
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = cells.nDim();
+    const label s = folding.stencil(cell);
+    const label ghost = cell + grid_.reachOffset() + grid_.reachNode(t);
+    const label target = s < 0 ? ghost : folding.targets(s)[t];
+
+    // x_I of the node in reach, and of its target, from the corner
+    const index3 i = grid_.coordinate(cell);
+    const index3 atGhost = grid_.coordinate(ghost);
+    const index3 atTarget = grid_.coordinate(target);
+    vector reached(Zero), own(Zero), scale(Zero), sign(Zero);
+    for (label d = 0; d < nDim; ++d)
+    {
+        reached[d] = atGhost[d] - i[d];
+        own[d] = atTarget[d] - i[d];
+        sign[d] = s < 0 ? 1 : folding.signs(s)[t][d];
+        scale[d] = sign[d]/(grid_.secondMoment()*cells.spacing(d));
+    }
+    scalar* sum = sums.data() + size_t(k)*16;
+    sum[0] += m.V;
+    for (label c = 0; c < nDim; ++c)
+    {
+        sum[13 + cells.axis(c)] += sign[c]*m.V;
+        sum[1 + cells.axis(c)] += scale[c]*(m.V*reached[c] - m.first[c]);
+        for (label d = 0; d < nDim; ++d)
+        {
+            // int N (x_I - x)_c (x_J - x)_d
+            const scalar product =
+                m.V*reached[c]*own[d]
+              - reached[c]*m.first[d]
+              - own[d]*m.first[c]
+              + m.second[3*c + d];
+            sum[4 + 3*cells.axis(c) + cells.axis(d)] +=
+                scale[c]*cells.spacing(d)*product;
+        }
+    }
+}
+
+
+void Foam::mpm::bodyNodes::integratePlate
+(
+    const body& b,
+    const nodeFolding& folding,
+    std::vector<scalar>& sums
+) const
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = cells.nDim();
+    const label size = grid_.reachSize();
+    const scalar h = cells.minSpacing();
+    const plate& thin = *b.thinPlate();
+
+    const label nSub = nDim == 3 ? 8 : 16;
+    const dividedCell divided(grid_, nSub);
+    const scalar dV = cells.cellVolume()/divided.size();
     std::vector<moments> full(size);
-    for (label sub = 0; sub < nSubs; ++sub) addPoint(full.data(), sub, dV);
+    for (label sub = 0; sub < divided.size(); ++sub)
+    {
+        divided.add(full, sub, dV);
+    }
+
+    // What is of each view, and last of the plate itself
+    constexpr label inPlate = 3;
+    const std::vector<moments> zero(size);
+    std::vector<moments> of[4];
+
+    index3 first, last, i;
+    if (!range(b, first, last)) return;
+    for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
+    for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
+    for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+    {
+        const label cell = grid_.index(i);
+        if (!grid_.ownCell(cell)) continue;
+
+        const point corner(grid_.nodePosition(cell));
+        point middle(corner);
+        for (label d = 0; d < nDim; ++d)
+        {
+            middle[cells.axis(d)] += 0.5*cells.spacing(d);
+        }
+
+        // Wholly of one of them, or divided
+        const FixedList<scalar, 4> whole
+        (
+            thin.parts(middle, std::sqrt(scalar(nDim))*h + h/nSub)
+        );
+        bool cut = true;
+        for (label part = 0; part < 4; ++part)
+        {
+            cut = cut && whole[part] < 1;
+            of[part] = whole[part] < 1 ? zero : full;
+        }
+        for (label sub = 0; cut && sub < divided.size(); ++sub)
+        {
+            const FixedList<scalar, 4> parts
+            (
+                thin.parts(divided.position(corner, sub), h/nSub)
+            );
+            for (label part = 0; part < 4; ++part)
+            {
+                if (parts[part] > 0) divided.add(of[part], sub, parts[part]*dV);
+            }
+        }
+
+        const label s = folding.stencil(cell);
+        for (label t = 0; t < size; ++t)
+        {
+            const label node =
+                s < 0
+              ? cell + grid_.reachOffset() + grid_.reachNode(t)
+              : folding.targets(s)[t];
+            auto addUnseen = [&](const label record)
+            {
+                const label k = record < 0 ? -1 : numberOf_[record];
+                if (k < 0) return;
+                const label view = grid_.viewOf(record);
+                const bool own = record == node;
+                moments unseen(of[inPlate][t]);
+                for (const label other : {plate::front, plate::back})
+                {
+                    if (view == plate::none || view == other) continue;
+                    unseen += of[other][t];
+                }
+                if (!own) unseen += of[plate::none][t];
+                if (unseen.V > 0)
+                {
+                    addFolded(cell, t, k, unseen, folding, sums);
+                }
+            };
+            addUnseen(node);
+            addUnseen(grid_.second(node));
+        }
+    }
+}
+
+
+void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = cells.nDim();
+    const label size = grid_.reachSize();
+    const scalar h = cells.minSpacing();
+
+    constexpr label nSub = 4;
+    const dividedCell divided(grid_, nSub);
+    const label nSubs = divided.size();
+    const scalar dV = cells.cellVolume()/nSubs;
+    const scalar diagonal = 0.5*std::sqrt(scalar(nDim))*h;
+
+    std::vector<moments> full(size);
+    for (label sub = 0; sub < nSubs; ++sub) divided.add(full, sub, dV);
 
     std::vector<scalar> sums(nodes_.size()*16, 0);
     nearCells_.reset();
@@ -225,6 +488,8 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
     {
         index3 first, last, i;
         if (!range(bodies_[b], first, last)) continue;
+        const bool thin = bodies_[b].thinPlate();
+        if (thin) integratePlate(bodies_[b], folding, sums);
         for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
         for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
         for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
@@ -240,6 +505,7 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
             }
             const scalar phi = bodies_[b].distance(middle);
             if (phi < h + diagonal) nearCells_.set(cell);
+            if (thin) continue;
 
             // The samples end somewhere in the middle of nowhere
             if (!(phi < diagonal + h/nSub)) continue;
@@ -249,14 +515,7 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
                 std::fill(cut.begin(), cut.end(), moments());
                 for (label sub = 0; sub < nSubs; ++sub)
                 {
-                    point x(corner);
-                    label rest = sub;
-                    for (label d = 0; d < nDim; ++d)
-                    {
-                        x[cells.axis(d)] +=
-                            (rest % nSub + 0.5)/nSub*cells.spacing(d);
-                        rest /= nSub;
-                    }
+                    const point x(divided.position(corner, sub));
                     const scalar part = min
                     (
                         scalar(1),
@@ -266,7 +525,7 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
                             0.5 - nSub*bodies_[b].distance(x)/h
                         )
                     );
-                    if (part > 0) addPoint(cut.data(), sub, part*dV);
+                    if (part > 0) divided.add(cut, sub, part*dV);
                 }
                 m = cut.data();
             }
@@ -280,39 +539,7 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
                 const label target = s < 0 ? ghost : folding.targets(s)[t];
                 const label k = target < numberOf_.size()
                   ? numberOf_[target] : -1;
-                if (k < 0) continue;
-
-                // x_I of the node in reach, and of its target, from the corner
-                const index3 atGhost = grid_.coordinate(ghost);
-                const index3 atTarget = grid_.coordinate(target);
-                vector reached(Zero), own(Zero), scale(Zero), sign(Zero);
-                for (label d = 0; d < nDim; ++d)
-                {
-                    reached[d] = atGhost[d] - i[d];
-                    own[d] = atTarget[d] - i[d];
-                    sign[d] = s < 0 ? 1 : folding.signs(s)[t][d];
-                    scale[d] = sign[d]
-                       /(grid_.secondMoment()*cells.spacing(d));
-                }
-                scalar* sum = sums.data() + size_t(k)*16;
-                sum[0] += m[t].V;
-                for (label c = 0; c < nDim; ++c)
-                {
-                    sum[13 + cells.axis(c)] += sign[c]*m[t].V;
-                    sum[1 + cells.axis(c)] +=
-                        scale[c]*(m[t].V*reached[c] - m[t].first[c]);
-                    for (label d = 0; d < nDim; ++d)
-                    {
-                        // int N (x_I - x)_c (x_J - x)_d
-                        const scalar product =
-                            m[t].V*reached[c]*own[d]
-                          - reached[c]*m[t].first[d]
-                          - own[d]*m[t].first[c]
-                          + m[t].second[3*c + d];
-                        sum[4 + 3*cells.axis(c) + cells.axis(d)] +=
-                            scale[c]*cells.spacing(d)*product;
-                    }
-                }
+                if (k >= 0) addFolded(cell, t, k, m[t], folding, sums);
             }
         }
     }
@@ -334,16 +561,15 @@ void Foam::mpm::bodyNodes::findNeighbours()
     const bool is3D = cells.nDim() == 3;
     neighbours_.clear();
     neighbours_.reserve(size_t(size())*nNeighbours());
-    for (const int64_t id : id_)
+    for (label number = 0; number < size(); ++number)
     {
-        index3 at;
-        at = 0;
-        int64_t rest = id;
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            at[d] = label(rest % width(d)) - backgroundGrid::margin;
-            rest /= width(d);
-        }
+        const int64_t id = id_[number];
+        const index3 at(coordinateOf(id));
+
+        // What it sees beside a plate: its own side
+        const plate* thin = plateAt(number);
+        label view = thin ? thin->viewAt(nodes_[number].x) : plate::none;
+        if (id >= nIds()) view = plate::front + plate::back - view;
         for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
         for (label j = -1; j <= 1; ++j)
         for (label i = -1; i <= 1; ++i)
@@ -365,8 +591,12 @@ void Foam::mpm::bodyNodes::findNeighbours()
                         )
                     );
             }
+            const label ofThere =
+                view == plate::none
+              ? label(plate::none) : thin->viewAt(positionOf(there));
+            const bool across = ofThere != plate::none && ofThere != view;
             const auto found =
-                inside ? number_.find(globalId(there)) : number_.end();
+                inside ? number_.find(globalId(there, across)) : number_.end();
             neighbours_.push_back
                 (found == number_.end() ? -1 : found->second);
         }

@@ -107,7 +107,7 @@ void Foam::mpm::bodyWall::findSlaves()
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!(node.phi < near)) continue;
+        if (!(node.phi < near) || !node.faced) continue;
 
         const point image(node.x + (imageDistance*h - node.phi)*node.n);
         nodes_.sourcesOf
@@ -170,7 +170,7 @@ void Foam::mpm::bodyWall::findSlaves()
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!(node.phi < near)) continue;
+        if (!(node.phi < near) || !node.faced) continue;
 
         // Without masters a node moves with the body
         slave s{k, 0, noSlip_[node.body], 0, 0, 0};

@@ -238,6 +238,21 @@ Foam::scalarList Foam::mpm::pressureSet::pressures
     scalarField p;
     cloud.visitFields(takePressure{p});
 
+    // Points behind a thin plate know nothing of what is before it
+    const std::vector<plate>& plates = cloud.grid().plates();
+    auto parted = [&](const point& a, const point& b)
+    {
+        for (const plate& thin : plates)
+        {
+            const label ofA = thin.viewAt(a), ofB = thin.viewAt(b);
+            if (ofA != plate::none && ofB != plate::none && ofA != ofB)
+            {
+                return true;
+            }
+        }
+        return false;
+    };
+
     // Sums of w, w dx, w dx dx, w p, w p dx, and the nearest point
     constexpr label nSums = 14;
     scalarList sums(nSums*x.size(), Zero);
@@ -269,6 +284,7 @@ Foam::scalarList Foam::mpm::pressureSet::pressures
                 rSqr += sqr(dx[d]);
             }
             const scalar r = std::sqrt(rSqr);
+            if (parted(x[i], position)) continue;
             nearest[i] = min(nearest[i], r);
             if (!(r < radius)) continue;
             const scalar w = cloud.mass()[k]*sqr(1 - r/radius);

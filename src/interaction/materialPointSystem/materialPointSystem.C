@@ -587,6 +587,12 @@ void Foam::mpm::materialPointSystem::makeBodies()
         return;
     }
     bodies_->start(time_.value());
+    const std::vector<plate> plates(bodies_->plates());
+    if (plates.size())
+    {
+        grid_.setPlates(plates);
+        rebuild();
+    }
     for (materialPointCloud& cloud : clouds_) cloud.addBodies(*bodies_);
     bodyDistance_.reset
     (

@@ -203,7 +203,9 @@ void Foam::mpm::movingFrame::addForces(materialPointCloud& cloud) const
             const scalar inPlane = w[0][t % T]*w[1][(t/T) % T];
             return nDim == 3 ? inPlane*w[2][t/(T*T)] : inPlane;
         };
-        const label s = folding.stencil(cell);
+        const label view =
+            cloud.boundary().tiles().viewOf(cloud.points().tile()[p]);
+        const label s = folding.stencil(cell, view);
         const label first = cell + grid.reachOffset();
 
         // The velocity of the grid: within a step points may have another one

@@ -293,7 +293,13 @@ Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
     nodeVector sum{}, volume{};
     for (const auto& part : mean_)
     {
-        const label i = node + part.first;
+        const label i =
+            grid_.plated()
+          ? grid_.seen
+            (
+                grid_.boxNode(node) + part.first, grid_.viewOf(node)
+            )
+          : node + part.first;
         const nodeVector& here = pressureInside_[i];
         for (label d = 0; d < dim; ++d)
         {
@@ -740,9 +746,10 @@ void Foam::mpm::waterSoilInteraction::startNodes()
                 return;
             }
 
+            const label at = grid_.plated() ? grid_.boxNode(i) : i;
             for (const label offset : touching_)
             {
-                const label first = i + offset;
+                const label first = at + offset;
                 if (first >= 0 && !fields_.mixed[first])
                 {
                     fields_.mixed[first] = 1;

@@ -199,16 +199,14 @@ Foam::mpm::index3 Foam::mpm::materialPointCloud::boxCoordinate
 }
 
 
-void Foam::mpm::materialPointCloud::setCell
+inline Foam::label Foam::mpm::materialPointCloud::partOf
 (
     const label point,
     const index3& i
-)
+) const
 {
     const lattice& cells = grid_.cells();
-    const label cell = grid_.index(i);
     label part = 0;
-
     if (grid_.nodeCentred())
     {
         for (label d = 0; d < grid_.nDim(); ++d)
@@ -219,8 +217,38 @@ void Foam::mpm::materialPointCloud::setCell
             if (xi >= i[d] + grid_.lower(d) + 0.5) part |= 1 << d;
         }
     }
+    return part;
+}
+
+
+void Foam::mpm::materialPointCloud::setCell
+(
+    const label point,
+    const index3& i
+)
+{
+    const label cell = grid_.index(i);
     points_.cell()[point] = cell;
-    points_.tile()[point] = boundary_.tiles().of(cell, part);
+    points_.tile()[point] = boundary_.tiles().of(cell, partOf(point, i));
+}
+
+
+void Foam::mpm::materialPointCloud::findViews()
+{
+    if (!grid_.plated()) return;
+
+    const nodeTiles& tiles = boundary_.tiles();
+    const label* cell = points_.cell();
+    for (label p = 0; p < size(); ++p)
+    {
+        if (grid_.plateOf(cell[p]) < 0) continue;
+        points_.tile()[p] = tiles.of
+        (
+            cell[p],
+            partOf(p, grid_.coordinate(cell[p])),
+            grid_.view(cell[p], position(p))
+        );
+    }
 }
 
 
@@ -480,6 +508,7 @@ Foam::label Foam::mpm::materialPointCloud::addPoints
 
 void Foam::mpm::materialPointCloud::finishPoints()
 {
+    findViews();
     findMaxSpeed();
     activate(true);
 }
@@ -530,6 +559,7 @@ void Foam::mpm::materialPointCloud::rebuild()
         {
             c->setCell(p, c->boxCoordinate(p));
         }
+        c->findViews();
     }
     activate(false);
 }

@@ -466,6 +466,7 @@ void Foam::mpm::materialPointCloud::readPoints()
         beginFields(newFields);
     }
     findMaxSpeed();
+    findViews();
     activate(false);
 }
 

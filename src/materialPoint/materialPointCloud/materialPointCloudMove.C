@@ -15,6 +15,21 @@ Description
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
+bool Foam::mpm::materialPointCloud::passed
+(
+    const label p,
+    const point& at
+) const
+{
+    // Its tile and cell are still those from which it comes
+    const label i = grid_.plateOf(points_.cell()[p]);
+    return
+        i >= 0
+     && grid_.plates()[i].passed
+        (at, boundary_.tiles().viewOf(points_.tile()[p]));
+}
+
+
 void Foam::mpm::materialPointCloud::putOutOfBodies()
 {
     const bitSet& nearCells = leader().nearBodies();
@@ -28,13 +43,21 @@ void Foam::mpm::materialPointCloud::putOutOfBodies()
     {
         if (!nearCells.test(cell[p])) continue;
         point at(position(p));
-        scalar phi;
-        const label b = bodies_->nearest(at, phi);
-        if (!(phi < 0)) continue;
+        if (passed(p, at))
+        {
+            at = grid_.plates()[grid_.plateOf(cell[p])].returned
+                (at, boundary_.tiles().viewOf(points_.tile()[p]), 1e-6*h);
+        }
+        else
+        {
+            scalar phi;
+            const label b = bodies_->nearest(at, phi);
+            if (!(phi < 0)) continue;
 
-        const vector g((*bodies_)[b].gradient(at, 0.5*h));
-        if (!(mag(g) > SMALL)) continue;
-        at += (1e-6*h - phi)*g/mag(g);
+            const vector g((*bodies_)[b].gradient(at, 0.5*h));
+            if (!(mag(g) > SMALL)) continue;
+            at += (1e-6*h - phi)*g/mag(g);
+        }
         for (label d = 0; d < nDim; ++d)
         {
             points_.column(x_ + d)[p] = at[cells.axis(d)];
@@ -401,6 +424,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     }
     else if (extremeLeft_) findExtremes();
     extremeLeft_ = false;
+    findViews();
 
     ++stepCount_;
     const bool sort = stepCount_ % settings_.sortInterval == 0;

@@ -47,6 +47,15 @@ class waterKernelsFor
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
 
+    //- Nodes that a thin plate parts, and those around as they see them; none
+    //  without plates
+    struct platedNode
+    {
+        label own;
+        std::vector<label> around;
+    };
+    std::vector<platedNode> plated_;
+
     //- With pressureQuadrature cells; else empty
     cellQuadrature<Shape, dim> cells_;
 
@@ -123,6 +132,33 @@ class waterKernelsFor
         }
     }
 
+    void findPlated()
+    {
+        const backgroundGrid& grid = cloud_.grid();
+        if (!grid.plated()) return;
+
+        const std::vector<scalar>& inverse = cloud_.boundary_.inverseVolume();
+        for (label node = 0; node < grid.nNodes(); ++node)
+        {
+            if (grid.viewOf(node) == plate::none || !(inverse[node] > 0))
+            {
+                continue;
+            }
+            platedNode here{node, {}};
+            for (const label offset : neighbours_)
+            {
+                here.around.push_back
+                (
+                    grid.seen
+                    (
+                        grid.boxNode(node) + offset, grid.viewOf(node)
+                    )
+                );
+            }
+            plated_.push_back(here);
+        }
+    }
+
     //- Volume of the water over that of the pores
     void saturations()
     {
@@ -165,6 +201,31 @@ class waterKernelsFor
                 return v;
             };
 
+        const auto set =
+            [&]
+            (
+                const label i,
+                const scalar own,
+                const scalar most,
+                const scalar least
+            )
+            {
+                filling[i] = waterCloud::filling(most);
+                if constexpr (!correction) return;
+
+                if (least <= waterCloud::insideSaturation)
+                {
+                    nodes.volumeError(i) =
+                        max(0.0, own - waterCloud::outsideSaturation);
+                    return;
+                }
+                const scalar error = own - 1;
+                const scalar defect = surfaceDefect<Shape>(least);
+                nodes.volumeError(i) =
+                    defect > 0 && error < 0
+                  ? min(0.0, error + defect) : error;
+            };
+
         // Most and least without branches, which noise would decide
         forNeighbourhoods
         (
@@ -191,24 +252,21 @@ class waterKernelsFor
                 }
                 for (label l = 0; l < n; ++l)
                 {
-                    const label i = first + l;
-                    filling[i] = waterCloud::filling(most[l]);
-                    if constexpr (!correction) continue;
-
-                    if (least[l] <= waterCloud::insideSaturation)
-                    {
-                        nodes.volumeError(i) =
-                            max(0.0, own[l] - waterCloud::outsideSaturation);
-                        continue;
-                    }
-                    const scalar error = own[l] - 1;
-                    const scalar defect = surfaceDefect<Shape>(least[l]);
-                    nodes.volumeError(i) =
-                        defect > 0 && error < 0
-                      ? min(0.0, error + defect) : error;
+                    set(first + l, own[l], most[l], least[l]);
                 }
             }
         );
+        for (const platedNode& node : plated_)
+        {
+            if (!c.order_.nodes().test(node.own)) continue;
+            scalar most = S[node.own], least = S[node.own];
+            for (const label i : node.around)
+            {
+                most = max(most, S[i]);
+                if (inverseVolume[i] > 0) least = min(least, S[i]);
+            }
+            set(node.own, S[node.own], most, least);
+        }
         if constexpr (!correction) return;
 
         // The gap behind the last layer of an inlet is no error
@@ -430,6 +488,7 @@ public:
         {
             if (i || j || k) neighbours_.push_back(i + j*ny + k*nz);
         }
+        findPlated();
     }
 
 

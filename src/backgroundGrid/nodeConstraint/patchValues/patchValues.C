@@ -30,6 +30,8 @@ Foam::mpm::patchValues::patchValues
     );
     walls.grid().exchange().sum(sum_);
     walls.grid().exchange().sum(number_);
+    walls.grid().copyToSeconds(sum_);
+    walls.grid().copyToSeconds(number_);
 }
 
 // ************************************************************************* //

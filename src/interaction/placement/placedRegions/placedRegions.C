@@ -220,7 +220,31 @@ Foam::point Foam::mpm::placedRegions::position
 }
 
 
-Foam::scalar Foam::mpm::placedRegions::free(point& x, const vector& size) const
+const Foam::mpm::plate* Foam::mpm::placedRegions::plateThrough
+(
+    const point& x,
+    const vector& size
+) const
+{
+    const scalar reach = 0.5*mag(size)/nPerDirection_;
+    for (const plate& thin : cloud_.grid().plates())
+    {
+        if (thin.depth(x) > -reach && mag(thin.height(x)) < reach)
+        {
+            return &thin;
+        }
+    }
+    return nullptr;
+}
+
+
+Foam::scalar Foam::mpm::placedRegions::free
+(
+    point& x,
+    const vector& size,
+    const plate* cut,
+    const label side
+) const
 {
     const bodies* all = cloud_.bodiesPtr();
     scalar phi;
@@ -228,8 +252,8 @@ Foam::scalar Foam::mpm::placedRegions::free(point& x, const vector& size) const
 
     const label nDim = cells_.nDim();
     const scalar reach = 0.5*mag(size)/nPerDirection_;
-    if (phi > reach) return 1;
-    if (phi < -reach) return 0;
+    if (!cut && phi > reach) return 1;
+    if (!cut && phi < -reach) return 0;
 
     // Its part of the cell, divided
     const label n = nDim == 2 ? 8 : 5;
@@ -247,6 +271,8 @@ Foam::scalar Foam::mpm::placedRegions::free(point& x, const vector& size) const
             rest /= n;
         }
         all->nearest(x + dx, phi);
+        const bool front = cut && cut->height(x + dx) >= 0;
+        if (cut && front != (side == plate::front)) continue;
         const scalar part = min
         (
             scalar(1),
@@ -288,6 +314,8 @@ Foam::mpm::placedRegions::places
 Foam::mpm::placedRegions::fill(const pointRegion& region)
 {
     const label perCell = nPerCell();
+    const int64_t nAll =
+        perCell*int64_t(cells_.nCells(0))*cells_.nCells(1)*cells_.nCells(2);
     const boundBox bounds(region.bounds());
     places result;
 
@@ -309,17 +337,10 @@ Foam::mpm::placedRegions::fill(const pointRegion& region)
           + int64_t(cells_.nCells(0))
            *(i[1] + int64_t(cells_.nCells(1))*i[2]);
 
-        for (label k = 0; k < perCell; ++k)
+        // Less has no weight, and moves with all others
+        const scalar leastPart = 0.02;
+        auto place = [&](const point& x, const int64_t id, const scalar part)
         {
-            const int64_t id = cellId*perCell + k;
-            point x(position(corner, size, k, id));
-            if (!holds(region, x, celli)) continue;
-
-            // Less has no weight, and moves with all others
-            const scalar leastPart = 0.02;
-            const scalar part = free(x, size);
-            if (part < leastPart) continue;
-
             if (!taken_.insert(id))
             {
                 FatalIOErrorInFunction(region.dict())
@@ -332,6 +353,29 @@ Foam::mpm::placedRegions::fill(const pointRegion& region)
             result.cell.append(celli);
             result.id.append(scalar(id));
             result.part.append(part);
+        };
+        for (label k = 0; k < perCell; ++k)
+        {
+            const int64_t id = cellId*perCell + k;
+            point x(position(corner, size, k, id));
+            const plate* cut = plateThrough(x, size);
+            if (!cut)
+            {
+                if (!holds(region, x, celli)) continue;
+                const scalar part = free(x, size);
+                if (part >= leastPart) place(x, id, part);
+                continue;
+            }
+
+            // A part for each side of a thin plate; ids of one of them follow
+            // behind all others
+            for (const label side : {plate::front, plate::back})
+            {
+                point y(x);
+                const scalar part = free(y, size, cut, side);
+                if (part < leastPart || !holds(region, y, celli)) continue;
+                place(y, side == plate::front ? id : nAll + id, part);
+            }
         }
     }
     return result;

@@ -1,0 +1,148 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of mpmFoam, distributed under GPL-3.0-or-later.
+\*---------------------------------------------------------------------------*/
+
+#include "plate.H"
+#include "pointField.H"
+#include <cmath>
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::mpm::plate::plate
+(
+    const point& start,
+    const point& end,
+    const vector& across,
+    const scalar thickness,
+    const bool endless
+)
+:
+    centre_(0.5*(start + end)),
+    halfThickness_(0.5*thickness)
+{
+    const scalar length = mag(end - start);
+    const scalar width = mag(across);
+    axes_[0] = (end - start)/length;
+    axes_[1] = across/width;
+    axes_[2] = axes_[0] ^ axes_[1];
+    lower_[0] = -0.5*length;
+    upper_[0] = 0.5*length;
+    lower_[1] = endless ? -0.1*GREAT : -0.5*width;
+    upper_[1] = endless ? 0.1*GREAT : 0.5*width;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::pointField Foam::mpm::plate::edge
+(
+    const label i,
+    const scalar beyond,
+    const scalar spacing
+) const
+{
+    const label k = i/2;
+    const label other = 1 - k;
+    const scalar at = i % 2 ? upper_[k] + beyond : lower_[k] - beyond;
+    const point middle(centre_ + at*axes_[k]);
+    const scalar length = upper_[other] - lower_[other];
+    if (length > 0.01*GREAT) return pointField(1, middle);
+
+    const label n = label(std::ceil(length/spacing)) + 1;
+    pointField x(n);
+    forAll(x, j)
+    {
+        x[j] = middle
+          + (lower_[other] + (j + 0.5)/n*length)*axes_[other];
+    }
+    return x;
+}
+
+
+void Foam::mpm::plate::extend(const label i, const scalar length)
+{
+    if (i % 2) upper_[i/2] += length;
+    else lower_[i/2] -= length;
+}
+
+
+Foam::mpm::plate::surface Foam::mpm::plate::nearest(const point& x) const
+{
+    // Beyond which faces it is, by how much, and on which side of the middle
+    FixedList<scalar, 3> beyond, sign;
+    for (label k = 0; k < 3; ++k)
+    {
+        const scalar xi = axes_[k] & (x - centre_);
+        const scalar lower = k < 2 ? lower_[k] - xi : -halfThickness_ - xi;
+        const scalar upper = k < 2 ? xi - upper_[k] : xi - halfThickness_;
+        beyond[k] = max(lower, upper);
+        sign[k] = (k == 2 ? xi >= -skin() : upper >= lower) ? 1 : -1;
+    }
+    label farthest = 2, n = 0;
+    vector way(Zero);
+    for (label k = 2; k >= 0; --k)
+    {
+        if (beyond[k] > beyond[farthest]) farthest = k;
+        if (!(beyond[k] > 0)) continue;
+        ++n;
+        way += beyond[k]*sign[k]*axes_[k];
+    }
+    if (n < 2)
+    {
+        return surface
+        {
+            beyond[farthest], sign[farthest]*axes_[farthest], true
+        };
+    }
+    return surface{mag(way), way/mag(way), false};
+}
+
+
+Foam::FixedList<Foam::scalar, 4> Foam::mpm::plate::parts
+(
+    const point& x,
+    const scalar size
+) const
+{
+    auto above = [&](const scalar distance)
+    {
+        return min(scalar(1), max(scalar(0), 0.5 + distance/size));
+    };
+    const scalar eta = height(x);
+    scalar inSpan = 1;
+    for (label k = 0; k < 2; ++k)
+    {
+        const scalar xi = axes_[k] & (x - centre_);
+        inSpan *= above(xi - lower_[k]) + above(upper_[k] - xi) - 1;
+    }
+    FixedList<scalar, 4> part;
+    part[front] = inSpan*above(eta - halfThickness_);
+    part[back] = inSpan*above(-eta - halfThickness_);
+    part[none] = 1 - inSpan;
+    part[3] = max(scalar(0), inSpan - part[front] - part[back]);
+    return part;
+}
+
+
+Foam::boundBox Foam::mpm::plate::bounds() const
+{
+    boundBox box;
+    for (label corner = 0; corner < 8; ++corner)
+    {
+        point x(centre_);
+        for (label k = 0; k < 3; ++k)
+        {
+            const bool upper = (corner >> k) & 1;
+            const scalar at =
+                k < 2
+              ? (upper ? upper_[k] : lower_[k])
+              : (upper ? halfThickness_ : -halfThickness_);
+            x += at*axes_[k];
+        }
+        box.add(x);
+    }
+    return box;
+}
+
+// ************************************************************************* //
