@@ -1,6 +1,12 @@
 """Thin plates: bodies for caseBuilder, and on which side of them points are."""
 
+import re
+
 import numpy as np
+
+from caseBuilder import G, RHO, Setup, hydrostatic
+
+LEVEL = 0.2
 
 
 def plate(start, end, thickness, **entries):
@@ -31,3 +37,97 @@ def polygon(*corners, **entries):
     """A region"""
     return {"type": "polygon", "points": [tuple(float(v) for v in c) for c in corners],
             **entries}
+
+
+def oneSided(thickness, degrees, h=0.02, end=0.5):
+    """Still water of 0.2 m to the left of a plate, nothing to the right of it;
+    the setup, and the plate"""
+    level, foot = LEVEL, 0.4
+    t = np.radians(degrees)
+    start, end_ = inclined((foot, 0), degrees, 0.3/np.sin(t))
+    top = foot + level/np.tan(t)
+    volume = 0.5*level*(foot + top) - 0.5*thickness*h*level/np.sin(t)
+    return Setup(
+        cells=(round(0.8/h), round(0.3/h)), h=h, regions={"pool": polygon(
+            (0, 0), (foot, 0), (top, level), (0, level),
+            pressure="hydrostatic", level=level)},
+        bodies={"plate": plate(start, end_, thickness*h)},
+        energy=False).until(end, end/5), start, end_, volume*h
+
+
+def forces(case, cloud="water"):
+    """Force on the plate at the entries of the log [N]"""
+    text = (case.path/"log.mpmFoam").read_text()
+    found = re.findall(
+        rf"body plate:.*?force of {cloud} \(([^)]*)\)", text)
+    return np.array([[float(v) for v in f.split()] for f in found])
+
+
+def oneSidedFigures(case, thickness, start, end):
+    """Nearest point to the face over h, rms speed [m/s], noise of the pressure
+    at the plate over rho g H, the largest in time; force on the plate over
+    rho g H^2/2"""
+    h, speeds, nearest, noise = case.setup.h, [], [], []
+    for time in case.times[1:]:
+        points = case.points(time)
+        eta = height(points.x, start, end) - 0.5*thickness*h
+        depth = LEVEL - points.x[:, 1]
+        wall = (eta < 1.5*h) & (depth > 1.5*h)
+        noise.append(np.sqrt(np.mean((points.p - RHO*G*depth)[wall]**2)))
+        speeds.append(np.sqrt((points.U**2).sum(axis=1).mean()))
+        nearest.append(eta.min()/h)
+    F = forces(case)
+    return (min(nearest), max(speeds), max(noise)/(RHO*G*LEVEL),
+            F[len(F)//2:].mean(axis=0)/(0.5*RHO*G*LEVEL**2*h))
+
+
+def blobs(thickness, degrees, sides, soil=False, steps=100):
+    """Without gravity: what is on the left hits the plate, what is on the right
+    touches it"""
+    h = 0.02
+    t = np.radians(degrees)
+    start, end = inclined((0.4, 0), degrees, 0.4/np.sin(t))
+    at = [start[0] + y/np.tan(t) for y in (0.12, 0.28)]
+    regions = {
+        "left": polygon((0.15, 0.12), (at[0], 0.12), (at[1], 0.28),
+                        (0.15, 0.28), velocity=(1, 0.5, 0)),
+        "right": polygon((at[0], 0.12), (0.7, 0.12), (0.7, 0.28),
+                         (at[1], 0.28))}
+    kind = "soilRegions" if soil else "regions"
+    fluid = {} if soil else {"fluid": {"soundSpeed": 20}}
+    return Setup(
+        cells=(45, 20), h=h, g=(0, 0, 0), points=2,
+        **{"regions": {}, **fluid,
+           kind: {side: regions[side] for side in sides}},
+        soil={} if not soil else {
+            "constitutiveModel": "linearElastic", "linearElasticCoeffs": {
+                "rhoS": 2650, "e0": 0.6, "d": 1e-3, "E": 2e5, "nu": 0.2}},
+        bodies={"plate": plate(start, end, thickness*h, **(
+            {"soil": {"frictionCoefficient": 0.5}} if soil else {}))},
+        control={"adjustTimeStep": False, "deltaT": 4e-4},
+        energy=False).steps(steps), start, end
+
+
+def sluice(thickness, end):
+    """Water leaves below a plate"""
+    h, level, opening = 0.01, 0.3, 0.06
+    return Setup(
+        cells=(100, 34), h=h, points=2,
+        regions={"pool": hydrostatic((0, 0), (0.6, level))},
+        bodies={"plate": plate((0.6, opening), (0.6, 0.4), thickness*h)},
+        sides={"xmax": ("patch", "zeroGradient")},
+        energy=False).until(end, 0.05), level, opening
+
+
+def discharge(case, level, opening):
+    """Over that of Torricelli's law with a contraction of 0.61, of the second
+    half of the time"""
+    volumes = []
+    for time in case.times:
+        p = case.points(time)
+        behind = p.x[:, 0] < 0.6
+        volumes.append((p.mass*p.J)[behind].sum()/RHO/case.setup.h)
+    q = -np.diff(volumes)/np.diff([float(t) for t in case.times])
+    H = np.array(volumes)[1:]/0.6
+    exact = 0.61*opening*np.sqrt(2*G*H/(1 + 0.61*opening/H))
+    return (q/exact)[len(q)//2:].mean()

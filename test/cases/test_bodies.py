@@ -79,6 +79,21 @@ def testBuoyancyOfACylinder(tmp_path, figures):
     figures.atMost("force across, %", 100*abs(F[0]/exact), 1)
 
 
+def testABodyOnTheFloorIsNotLifted(tmp_path, figures):
+    """What lies below its foot belongs to the floor"""
+    h, level = 0.02, 0.2
+    case = solved(Setup(
+        cells=(40, 15), h=h,
+        regions={"pool": hydrostatic((0, 0), (0.4, level))},
+        bodies={"pipe": {"type": "fixed",
+                         "surface": box((0.4, -1), (0.5, 1))}},
+        energy=False).until(0.2), tmp_path)
+    F = forces(case)
+    F = F[len(F)//2:].mean(axis=0)/(0.5*RHO*G*level**2*h)
+    figures.atMost("error of the force across, %", 100*abs(F[0] - 1), 1)
+    figures.atMost("force upwards, % of that across", 100*abs(F[1]), 1)
+
+
 def testBuoyancyOfASphere(tmp_path, figures):
     h, radius = 0.025, 0.1
     case = solved(Setup(
@@ -227,7 +242,22 @@ def drifting(end=0.04):
         energy=False).until(end, 0.02)
 
 
-@pytest.mark.parametrize("scene", [turning, drifting])
+def standing(end=0.02):
+    """A box in wet sand, where two ranks meet"""
+    return Setup(
+        cells=(50, 25), h=0.02, points=2,
+        regions={"pool": hydrostatic((0, 0), (0.46, 0.36)),
+                 "tail": hydrostatic((0.54, 0), (1, 0.2))},
+        soilRegions={"bed": box((0, 0), (1, 0.14), stress="geostatic",
+                                saturated=True)},
+        mpm={"maxSoilSoundSpeed": 10},
+        bodies={"wall": {"type": "fixed",
+                         "surface": box((0.46, 0.06), (0.54, 0.6)),
+                         "soil": {"frictionCoefficient": 0.4}}},
+        energy=False).until(end, 0.02)
+
+
+@pytest.mark.parametrize("scene", [turning, drifting, standing])
 def testTwoRanks(tmp_path, figures, scene):
     one = solved(scene(), tmp_path/"one")
     two = scene().write(tmp_path/"two"/"case")
@@ -377,8 +407,9 @@ MOTION = {"mass": 1, "centreOfMass": (0.5, 0.3, 0),
     ({"type": "fixed", "surface": {
         "type": "sphere", "origin": (0.5, 0.3, 0), "radius": 0.05}}, {},
      "across the plane of the case"),
-    ({"type": "fixed", "surface": {"type": "plate", "origin": (0, 0.3, -1),
-                                   "span": (1, 0, 2)}}, {}, "no inside"),
+    ({"type": "fixed", "surface": {"type": "disk", "origin": (0.5, 0.3, 0),
+                                   "normal": (0, 1, 0), "radius": 0.1}}, {},
+     "no inside"),
     ({**BALL, "type": "prescribed", "motion": {}}, {},
      "neither displacement nor rotation"),
     ({**BALL, "type": "prescribed", "motion": {

@@ -160,8 +160,8 @@ TEST_CASE("plate: the two sides share no record, below its edge all do")
         for (label j = 0; j < 8; ++j)
         {
             for (label part = 0; part < 4; ++part)
-            for (label i = 0; i < 10; ++i)
-            for (label k = 0; k < 10; ++k)
+            for (label i = 4; i < 10; ++i)
+            for (label k = 0; k < 5; ++k)
             {
                 const std::set<label> front
                     (s.seen(s.at(i, j), part, plate::front));

@@ -20,6 +20,7 @@ for place in ["etc/python", "test", "test/cases"]:
 
 import bodies as shapes  # noqa: E402
 from caseBuilder import G, RHO, Setup, box, hydrostatic  # noqa: E402
+import plateRuns  # noqa: E402
 from heave import freeHeave  # noqa: E402
 from mpmfoam import figureTable  # noqa: E402
 
@@ -384,6 +385,7 @@ CONTENTS = {
     "quiet_h0.02": lambda n: quiet(n, 0.02),
     **{f"heave_h{h:g}_{t}": (lambda n, h=h, t=t: heave(n, h, t))
        for h in [0.02, 0.01] for t in ["APIC", "XAPIC"]},
+    **plateRuns.contents(solve),
 }
 
 

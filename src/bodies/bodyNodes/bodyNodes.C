@@ -114,8 +114,22 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
     id_.clear();
     number_.clear();
 
-    // Of this rank, each copy once
+    // Of this rank, each copy once. Nodes that no own cell reaches, only its
+    // neighbours', may have values that another rank knows better
     std::vector<std::pair<int64_t, label>> own;
+    auto reached = [&](const label node)
+    {
+        const label first = grid_.boxNode(node) - grid_.reachOffset();
+        for (label t = 0; Pstream::parRun() && t < grid_.reachSize(); ++t)
+        {
+            const label cell = first - grid_.reachNode(t);
+            if (cell >= 0 && cell < grid_.nBoxNodes() && grid_.ownCell(cell))
+            {
+                return true;
+            }
+        }
+        return !Pstream::parRun();
+    };
     for (label b = 0; b < bodies_.size(); ++b)
     {
         index3 first, last;
@@ -148,11 +162,14 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
     }
     std::sort(own.begin(), own.end());
 
-    // Of all ranks; the first one that has a node gives it
+    // Of all ranks; the first one that reaches a node gives it
     List<List<int64_t>> ids(Pstream::nProcs());
-    List<int64_t>& mine = ids[Pstream::myProcNo()];
-    mine.setSize(own.size());
-    forAll(mine, i) mine[i] = own[i].first;
+    DynamicList<int64_t> mine;
+    for (const auto& o : own)
+    {
+        if (reached(o.second)) mine.append(o.first);
+    }
+    ids[Pstream::myProcNo()] = mine;
     Pstream::gatherList(ids);
     Pstream::scatterList(ids);
 
@@ -220,8 +237,9 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
         const label k = number_[o.first];
         numberOf_[o.second] = k;
         const bool gives =
-            o.first != last && giver[o.first] == Pstream::myProcNo();
-        last = o.first;
+            o.first != last && giver[o.first] == Pstream::myProcNo()
+         && reached(o.second);
+        if (gives) last = o.first;
         local_.push_back(local{o.second, k, gives});
         if (gives) nodes_[k].inverseVolume = inverseVolume[o.second];
     }

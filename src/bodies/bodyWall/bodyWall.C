@@ -483,6 +483,16 @@ void Foam::mpm::bodyWall::press
           + cmptMultiply(node.W, gradient)
         );
         if (cells.nDim() == 2) R[cells.axis(2)] = 0;
+
+        // A wall of the mesh that holds the node bears what presses on it behind
+        // the body's surface. The body's own part is along its normal.
+        const vector n(product(node.free, node.n));
+        const vector held(node.n - n);
+        R = product(node.free, R);
+        if (magSqr(held) > 0 && magSqr(n) > 0.01)
+        {
+            R += (R & n)/magSqr(n)*held;
+        }
         if (p(k) > 0) wallForce_[k] = part*R;
     }
 }

@@ -567,17 +567,15 @@ void Foam::mpm::materialPointSystem::updateBodyDistance()
 }
 
 
-void Foam::mpm::materialPointSystem::makeBodies()
+void Foam::mpm::materialPointSystem::readBodies()
 {
     if (!properties_.found("bodies")) return;
 
-    wordList names(clouds_.size());
-    forAll(names, i) names[i] = clouds_[i].name();
     bodies_.reset
     (
         new bodies
         (
-            grid_, subDictOf(properties_, "bodies"), names,
+            grid_, subDictOf(properties_, "bodies"), cloudNames(),
             settings_.strictKeywords
         )
     );
@@ -586,13 +584,22 @@ void Foam::mpm::materialPointSystem::makeBodies()
         bodies_.clear();
         return;
     }
-    bodies_->start(time_.value());
+
+    // They have nodes of their own, which clouds have to know
     const std::vector<plate> plates(bodies_->plates());
     if (plates.size())
     {
         grid_.setPlates(plates);
-        rebuild();
+        grid_.rebuild();
     }
+}
+
+
+void Foam::mpm::materialPointSystem::makeBodies()
+{
+    if (!bodies_.valid()) return;
+
+    bodies_->start(time_.value());
     for (materialPointCloud& cloud : clouds_) cloud.addBodies(*bodies_);
     bodyDistance_.reset
     (
@@ -860,6 +867,7 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
 {
     readSettings();
     readGravity();
+    readBodies();
     makeClouds();
     makeBodies();
     readForces();

@@ -291,10 +291,11 @@ Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
     const label dim = grid_.nDim();
 
     nodeVector sum{}, volume{};
+    const bool plated = grid_.plated();
     for (const auto& part : mean_)
     {
         const label i =
-            grid_.plated()
+            plated
           ? grid_.seen
             (
                 grid_.boxNode(node) + part.first, grid_.viewOf(node)

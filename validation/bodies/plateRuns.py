@@ -1,0 +1,131 @@
+"""Thin plates: runs of bodies.py. The scenes are those of test/cases/plates.py."""
+
+import numpy as np
+
+import plates
+from caseBuilder import G, RHO, Setup, box, hydrostatic
+
+
+def oneSided(solve, name, thickness, degrees, h):
+    setup, start, end, volume = plates.oneSided(thickness, degrees, h)
+    case = solve(name, setup)
+    points = case.points("0")
+    yield ("error of the volume at the start, %",
+           100*((points.mass*points.J).sum()/RHO/volume - 1), "<= 0.1")
+    nearest, speed, noise, F = plates.oneSidedFigures(
+        case, thickness, start, end)
+    yield "deepest point over h", nearest, ">= 0"
+    yield "rms speed, most, mm/s", 1e3*speed, "<= 10"
+    yield "noise at the plate, most, % of rho g H", 100*noise, "<= 1.5"
+    yield "force across over rho g H^2/2", F[0], "1 +- 1 %"
+    yield ("force upwards over rho g H^2/2, less the exact one",
+           F[1] + 1/np.tan(np.radians(degrees)), "<= 0.02")
+
+
+def passing(solve, name, thickness, degrees, soil):
+    """What is on the right with something on the left, and without"""
+    runs = [solve(f"{name}_{len(sides)}", plates.blobs(
+        thickness, degrees, sides, soil)[0])
+        for sides in [["left", "right"], ["right"]]]
+    _, start, end = plates.blobs(thickness, degrees, ["right"], soil)
+    cloud = "soil" if soil else "water"
+
+    def read(case, time):
+        field = {n: case.case.cloudField(time, cloud, n)
+                 for n in ["id", "x", "U", "mass"]}
+        order = np.argsort(field["id"])
+        return {n: values[order] for n, values in field.items()}
+    first, last, alone = (read(runs[0], "0"), read(runs[0], runs[0].times[-1]),
+                          read(runs[1], runs[1].times[-1]))
+    right = plates.height(first["x"], start, end) < 0
+    momentum = (last["mass"][:, None]*last["U"])[right].sum(axis=0)
+    given = (first["mass"][:, None]*first["U"]).sum(axis=0)
+    yield ("points on another side than before", float((right != (
+        plates.height(last["x"], start, end) < 0)).sum()), "<= 0")
+    yield ("momentum that passed in 100 steps, %",
+           100*np.linalg.norm(momentum)/np.linalg.norm(given), "<= 0.1")
+    yield ("velocities other than with nothing on the left, m/s",
+           abs(last["U"][right] - alone["U"]).max(), "<= 1e-10")
+
+
+def sluice(solve, name, thickness):
+    setup, level, opening = plates.sluice(thickness, 0.8)
+    yield ("discharge over Torricelli's, contraction 0.61",
+           plates.discharge(solve(name, setup), level, opening), "1 +- 10 %")
+
+
+def sand(solve, name, thickness, h):
+    top, foot = 0.12, 0.2
+    case = solve(name, Setup(
+        cells=(round(0.4/h), round(0.16/h)), h=h, points=2, regions={},
+        soilRegions={"sand": box((0, 0), (foot, top), stress="geostatic",
+                                 saturated=False)},
+        mpm={"maxSoilSoundSpeed": 20},
+        bodies={"plate": plates.plate(
+            (foot, 0), (foot, 0.16), thickness*h,
+            soil={"frictionCoefficient": 0.4})}, energy=False).until(0.5))
+    U = case.case.cloudField(case.times[-1], "soil", "U")
+    F = plates.forces(case, "soil")[-1]
+    weight = 0.5*RHO*2.65/1.695*G*top**2*h
+    yield ("rms speed, mm/s", 1e3*np.sqrt((U**2).sum(axis=1).mean()), "<= 1")
+    yield ("force over rho g H^2/2 (active 0.25, at rest 0.43)",
+           F[0]/weight, "stated")
+
+
+def seepage(solve, name, h, d=0.5e-3):
+    """Below a sheet pile in a layer of finite depth: Pavlovsky's form factor of
+    two half-fragments, q = k H K'/(2 K) with the modulus sin(pi s/(2 T))"""
+    T, s, levels, end = 0.15, 0.07, (0.25, 0.17), 1.0
+    case = solve(name, Setup(
+        cells=(round(0.8/h), round(0.3/h)), h=h, points=2, regions={
+            "left": hydrostatic((0, 0), (0.4, levels[0])),
+            "right": hydrostatic((0.4, 0), (0.8, levels[1]))},
+        soilRegions={"bed": box((0, 0), (0.8, T), stress="geostatic",
+                                saturated=True)},
+        soil={"DruckerPragerCoeffs": {"d": d}},
+        mpm={"maxSoilSoundSpeed": 15},
+        bodies={"plate": plates.plate(
+            (0.4, T - s), (0.4, 0.35), 0.2*h,
+            soil={"frictionCoefficient": 0.4})},
+        energy=False).until(end, end/10))
+    t, V = [], []
+    for time in case.times:
+        p = case.points(time)
+        t.append(float(time))
+        V.append((p.mass*p.J)[p.x[:, 0] > 0.4].sum()/RHO/h)
+    late = np.array(t) > 0.3*end
+    q = np.polyfit(np.array(t)[late], np.array(V)[late], 1)[0]
+
+    # Darcy's part of Ergun's law at the porosity of the bed
+    n = 0.695/1.695
+    k = RHO*G*n**3*d**2/(150*1e-3*(1 - n)**2)
+
+    def K(m):
+        # Complete elliptic integral by the arithmetic-geometric mean
+        a, b = 1.0, np.sqrt(1 - m**2)
+        for _ in range(20):
+            a, b = 0.5*(a + b), np.sqrt(a*b)
+        return np.pi/(2*a)
+    m = np.sin(0.5*np.pi*s/T)
+    exact = k*(levels[0] - levels[1])*K(np.sqrt(1 - m**2))/(2*K(m))
+    yield "discharge over Pavlovsky's", q/exact, "1 +- 10 %"
+
+
+def contents(solve):
+    return {
+        **{f"plate{t:g}h_{d}_h{h:g}":
+           (lambda n, t=t, d=d, h=h: oneSided(solve, n, t, d, h))
+           for t in [0.1, 0.5, 1, 2] for d in [90, 60, 120]
+           for h in [0.02, 0.01] if h == 0.02 or t in (0.1, 1)},
+        **{f"plate{t:g}h_{d}_passing_{'soil' if soil else 'water'}":
+           (lambda n, t=t, d=d, soil=soil: passing(solve, n, t, d, soil))
+           for t in [0.1, 0.5, 1, 2] for d in [90, 60]
+           for soil in [False, True]},
+        **{f"plate{t:g}h_sluice": (lambda n, t=t: sluice(solve, n, t))
+           for t in [0.1, 1, 2]},
+        **{f"plate{t:g}h_sand_h{h:g}":
+           (lambda n, t=t, h=h: sand(solve, n, t, h))
+           for t, h in [(0.1, 0.01), (1, 0.01), (0.1, 0.005)]},
+        **{f"plate_seepage_h{h:g}": (lambda n, h=h: seepage(solve, n, h))
+           for h in [0.02, 0.01]},
+    }
