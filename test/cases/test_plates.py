@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from caseBuilder import G, RHO, CaseError, Setup, box, hydrostatic
-from plates import (blobs, discharge, forces, height, oneSided,
+from plates import (blobs, discharge, forces, height, inclined, oneSided,
                     oneSidedFigures, plate, sluice)
 
 
@@ -108,6 +108,30 @@ def testFlowUnderAnEdge(tmp_path, figures, thickness):
     case = solved(setup, tmp_path/"case")
     figures.atMost("error of the discharge, %", 100*abs(
         discharge(case, level, opening) - 1), 10)
+
+
+@pytest.mark.parametrize("thickness, degrees", [(0.1, 90), (1, 60)])
+def testADamBreaksOnAPlate(tmp_path, figures, thickness, degrees):
+    """Water hits a plate, and goes over its edge"""
+    h = 0.02
+    start, end = inclined((0.6, 0), degrees, 0.2)
+    case = solved(Setup(
+        cells=(50, 35), h=h, points=2,
+        regions={"pool": hydrostatic((0, 0), (0.3, 0.5))},
+        bodies={"plate": plate(start, end, thickness*h)},
+        energy=False).until(0.5, 0.02), tmp_path/"case")
+    along = (end - start)/0.2
+    crossed, over, before = 0, 0, None
+    for time in case.times:
+        x = case.points(time).x
+        eta = height(x, start, end)
+        beside = (x[:, :2] - start) @ along < 0.2 - 1.5*h
+        if before is not None:
+            crossed += ((eta > 0) != (before[0] > 0))[beside & before[1]].sum()
+        before = eta, beside
+        over = max(over, (eta < 0).sum())
+    figures.equal("points that went through it", crossed, 0)
+    figures.atLeast("points that went over it", over, 10)
 
 
 def mixed(end=0.04):

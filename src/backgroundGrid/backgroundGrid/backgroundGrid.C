@@ -384,14 +384,26 @@ void Foam::mpm::backgroundGrid::findSeconds()
     }
     firstOf_.transfer(firsts);
 
+    // Cells that reach nodes of both sides, or are near
+    const scalar near = 2*lattice_->minSpacing();
     plateOf_.setSize(nBoxNodes(), -1);
     for (const label cell : boxCell_)
     {
+        label p = -1;
+        bool sides[3] = {false, false, false};
         for (label t = 0; t < reachSize(); ++t)
         {
-            const label p =
-                plateOfNode[cell + reachOffset() + reachNode(t)];
-            if (p >= 0) plateOf_[cell] = p;
+            const label node = cell + reachOffset() + reachNode(t);
+            if (plateOfNode[node] >= 0) p = plateOfNode[node];
+            sides[ownView_[node]] = true;
+        }
+        if
+        (
+            (sides[plate::front] && sides[plate::back])
+         || (p >= 0 && mag(plates_[p].height(nodePosition(cell))) < near)
+        )
+        {
+            plateOf_[cell] = p;
         }
     }
 

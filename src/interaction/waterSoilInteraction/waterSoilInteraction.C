@@ -291,23 +291,28 @@ Foam::mpm::waterSoilInteraction::meanPressureGradient(const label node) const
     const label dim = grid_.nDim();
 
     nodeVector sum{}, volume{};
-    const bool plated = grid_.plated();
-    for (const auto& part : mean_)
+    auto add = [&](const label i, const scalar share)
     {
-        const label i =
-            plated
-          ? grid_.seen
-            (
-                grid_.boxNode(node) + part.first, grid_.viewOf(node)
-            )
-          : node + part.first;
         const nodeVector& here = pressureInside_[i];
         for (label d = 0; d < dim; ++d)
         {
             // A folded force is no gradient
-            const scalar weight = part.second*(1 - folded_[i][d]);
+            const scalar weight = share*(1 - folded_[i][d]);
             sum[d] += weight*here[d];
             volume[d] += weight*here[3];
+        }
+    };
+    if (!grid_.plated())
+    {
+        for (const auto& part : mean_) add(node + part.first, part.second);
+    }
+    else
+    {
+        const label at = grid_.boxNode(node);
+        const label view = grid_.viewOf(node);
+        for (const auto& part : mean_)
+        {
+            add(grid_.seen(at + part.first, view), part.second);
         }
     }
 
@@ -732,6 +737,7 @@ void Foam::mpm::waterSoilInteraction::startNodes()
             }
         );
     }
+    const bool plated = grid_.plated();
     fields_.forNodes
     (
         [&](const label i)
@@ -747,7 +753,7 @@ void Foam::mpm::waterSoilInteraction::startNodes()
                 return;
             }
 
-            const label at = grid_.plated() ? grid_.boxNode(i) : i;
+            const label at = plated ? grid_.boxNode(i) : i;
             for (const label offset : touching_)
             {
                 const label first = at + offset;

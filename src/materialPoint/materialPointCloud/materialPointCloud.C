@@ -242,11 +242,13 @@ void Foam::mpm::materialPointCloud::findViews()
     for (label p = 0; p < size(); ++p)
     {
         if (grid_.plateOf(cell[p]) < 0) continue;
+
+        // Else it is still in the tile that it had
+        const label view = grid_.view(cell[p], position(p));
+        if (view == tiles.viewOf(points_.tile()[p])) continue;
         points_.tile()[p] = tiles.of
         (
-            cell[p],
-            partOf(p, grid_.coordinate(cell[p])),
-            grid_.view(cell[p], position(p))
+            cell[p], partOf(p, grid_.coordinate(cell[p])), view
         );
     }
 }
