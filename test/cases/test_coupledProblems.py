@@ -302,13 +302,17 @@ def testLooseGrainsFlowAsASuspension(tmp_path, figures):
 
 # --- time -----------------------------------------------------------------
 
-def testViscousStep(tmp_path, figures):
-    """A suspension in a liquid so viscous that diffusion limits the step:
-    it falls as it should, and nothing grows"""
+@pytest.mark.parametrize("step", ["explicit", "stages"])
+def testViscousStep(tmp_path, figures, step):
+    """A suspension in a liquid so viscous that diffusion limits the step, if
+    it is explicit: it falls as it should, and nothing grows"""
     run = coupling.settling(0.3, 0.2, end=0.6)
-    run.settings[coupling.PROPERTIES][f"{coupling.FLUID}/mu"] = 100
+    properties = run.settings[coupling.PROPERTIES]
+    properties[f"{coupling.FLUID}/mu"] = 100
+    properties["water/viscousStep"] = step
     case = solved(tmp_path, run)
-    figures.equal("limiter", run.log.dtLimiter, "viscosity")
+    figures.equal("limited by viscosity", run.log.dtLimiter == "viscosity",
+                  step == "explicit")
     figures.atMost("speed: error against the equilibrium",
                    abs(figuresOf(case, "settling")["settlingError"]), 0.05)
     exact = coupled.settlingSpeed(coupled.Medium(case), 0.3)

@@ -158,8 +158,10 @@ def testTwoRunsAreOne(tmp_path, figures, dim):
 @pytest.mark.parametrize("water", [KEPSILON, {
     "turbulence": "Smagorinsky"}, {
         "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
-            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 0.1}}],
-    ids=["kEpsilon", "Smagorinsky", "HerschelBulkley"])
+            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 0.1}}, {
+        "viscousStep": "stages", "viscosityModel": "BinghamPapanastasiou",
+        "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 50}}],
+    ids=["kEpsilon", "Smagorinsky", "HerschelBulkley", "stages"])
 @pytest.mark.parametrize("dim", [2, 3])
 def testRanksAgree(tmp_path, figures, dim, water):
     setup = damBreak(dim, points=2, water=water, wall={"type": "smoothWall"})
@@ -207,6 +209,98 @@ def testYieldStressHoldsAColumn(tmp_path, figures):
     figures.atMost("front with it [m]", float(held), 5e-4)
 
 
+# --- viscous stress in stages ---------------------------------------------
+
+STAGES = {"viscousStep": "stages"}
+MUD = {**STAGES, "viscosityModel": "BinghamPapanastasiou",
+       "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 50}}
+
+
+def testStagesAsExplicit(tmp_path, figures):
+    """A Bingham liquid in a gap: the same flow, of steps that sound alone
+    limits, a seventh in number"""
+    flow, steps = {}, {}
+    for step in ["explicit", "stages"]:
+        setup, exact, time = binghamGap(
+            m=40, water={"transfer": "XAPIC", "viscousStep": step})
+        case = setup.until(time/4).write(tmp_path/step).prepare()
+        x = case.case.cloudField("0", "water", "x")
+        U = np.zeros_like(x)
+        U[:, 0] = exact(x[:, 1])
+        setField(case, "U", U)
+        case.solve()
+        flow[step] = case.points().U[:, 0].mean()/exact(x[:, 1]).mean()
+        steps[step] = max(case.timesByStep())
+        figures.equal(f"{step}: limiter", case.log.dtLimiter,
+                      "viscosity" if step == "explicit" else "water sound")
+    figures.atMost("flow in stages over explicit, less one", float(abs(
+        flow["stages"]/flow["explicit"] - 1)), 0.005)
+    figures.atMost("flow over that of theory, less one",
+                   float(abs(flow["stages"] - 1)), 0.05)
+    figures.atMost("steps over those of explicit stress",
+                   steps["stages"]/steps["explicit"], 0.2)
+
+
+@pytest.mark.parametrize("mu, soundSpeed, longer", [
+    (1, 10, 0.02), (100, 10, 2), (100, 2.5, 8)])
+def testStagesDecay(tmp_path, figures, mu, soundSpeed, longer):
+    """A shear wave of 16 cells in a cyclic box, u = U exp(-nu k^2 t), to a
+    tenth, in steps longer than explicit ones; the momentum stays. Stages of
+    first order leave an error of nu k^2 dt/4 of the exponent, 0.01 longer"""
+    n, h = 16, 0.01
+    k = 2*np.pi/(n*h)
+    nu = mu/RHO
+    time = np.log(10)/(nu*k**2)
+    setup = Setup(
+        cells=(4, n), h=h, points=3, g=(0, 0, 0), energy=False,
+        regions={"all": box((0, 0), (10, n*h), velocity=(0.3, 0, 0))},
+        fluid={"mu": mu, "soundSpeed": soundSpeed},
+        water={"transfer": "XAPIC", **STAGES}).cyclic("x", "y")
+    case = setup.until(time).write(tmp_path/"case").prepare()
+    x = case.case.cloudField("0", "water", "x")
+    U = np.zeros_like(x)
+    U[:, 0] = 0.3 + 0.1*np.sin(k*x[:, 1])
+    setField(case, "U", U)
+    before = case.points("0").momentum
+    case.solve()
+    p = case.points()
+    left = 2*np.mean((p.U[:, 0] - 0.3)*np.sin(k*p.x[:, 1]))/0.1
+    figures.atMost("decay of the wave over theory's, less one",
+                   float(abs(np.log(left)/np.log(0.1) - 1)),
+                   0.02 + 0.012*longer)
+    figures.atMost("limiter viscosity", case.log.dtLimiter == "viscosity", 0)
+    figures.atMost("change of the momentum over it", float(
+        np.abs(p.momentum - before).max()/np.abs(before).max()), 1e-12)
+
+
+def testStagesTakeEnergy(tmp_path, figures):
+    """Mud that breaks from a dam, at rest and in motion"""
+    case = damBreak(wall="noSlip", points=2, water=MUD).until(0.5).write(
+        tmp_path/"case").prepare()
+    text = case.solve().text
+    figures.equal("limiter", case.log.dtLimiter, "water sound")
+    figures.contains("cost of stages", "yes" if re.search(
+        r"viscous stages", text) else None, "yes")
+    e = case.energies()["total"]
+    figures.atMost("growth of the energy over its initial value", float(
+        (e - np.minimum.accumulate(e)).max()/e[0]), 1e-3)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def testTwoRunsOfStagesAreOne(tmp_path, figures, dim):
+    split = damBreak(dim, points=2, water=MUD, wall="noSlip").steps(20).write(
+        tmp_path/"split").prepare()
+    whole = split.clone(tmp_path/"whole")
+    split.solve()
+    split.change(control={"writeInterval": 40})
+    whole.change(control={"writeInterval": 40})
+    split.solve()
+    whole.solve()
+    end = max(whole.timesByStep())
+    figures.equal("last step", max(split.timesByStep()), end)
+    figures.equal("files that differ", differing(split, whole, end), [])
+
+
 @pytest.mark.parametrize("mu, wall, warned", [
     (1e-3, "noSlip", True), (1e-3, "slip", False), (100, "noSlip", False)])
 def testNoSlipIsNamed(tmp_path, figures, mu, wall, warned):
@@ -246,6 +340,11 @@ def wallCase(wall, **entries):
     (wallCase("slip", water={
         "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
             "tau0": -1, "k": 1, "n": 1, "nu0": 1}}), "tau0"),
+    (wallCase("slip", water={"viscousStep": "implicit"}),
+     "viscousStep.*implicit.*stages"),
+    (wallCase("slip", water={**STAGES, "transfer": "FLIP"},
+              mpm={"shapeFunction": "linear"}),
+     "viscousStep is stages.*explicit"),
     (wallCase({"type": "smoothWall"}, water={"turbulence": "mixingLength"},
               soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
      "beside solids a bed would be one"),

@@ -118,6 +118,15 @@ def bed(model="elastoplasticMuI", wet=False, level=0.2, **coefficients):
     return setup
 
 
+def current(**water):
+    """Water that flows over a bed, without end, 9000 points"""
+    setup = bed("rigidSkeleton", wet=True).cyclic("x")
+    setup.regions["all"]["velocity"] = (0.3, 0, 0)
+    setup.water = {"transfer": "XAPIC", "pressureQuadrature": "points",
+                   **water}
+    return setup
+
+
 def apart(water=True, soil=True):
     """Water and sand at the two ends of a tank, before they meet; together or
     alone they take the same steps, and do the same"""
@@ -243,6 +252,13 @@ def effectRows():
         ("front, gauge, balance, each 10", {"functions": functions(10)}, {}),
         ("probes of p, each 10", {"functions": probes(10)}, {}),
         ("log, each 10", {"mpm": {"logInterval": 10}}, {})])
+    rows.append(("kEpsilon over a bed", current(
+        turbulence="kEpsilon", kEpsilonCoeffs={"k": 1e-3, "epsilon": 1e-3}),
+        current()))
+    mud = {"viscosityModel": "BinghamPapanastasiou",
+           "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 50}}
+    rows.append(("viscous stages (8) for explicit", tank(water={
+        **mud, "viscousStep": "stages"}), tank(water=mud)))
     rows.append(("inlet and outlet", channel(), channel(open_=False)))
     rows.append(("roughWall for slip",
                  tank(wall={"type": "roughWall", "ks": 1e-3}), tank()))

@@ -33,7 +33,11 @@ MODELS = {
         "BinghamPapanastasiouCoeffs": {"tau0": 1e-3, "m": 1}}, None),
     "HerschelBulkley": ({
         "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
-            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 1e-2}}, None)}
+            "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 1e-2}}, None),
+    # Without stages a cell of 1 cm would take steps of 25 us
+    "stages": ({
+        "viscousStep": "stages", "viscosityModel": "BinghamPapanastasiou",
+        "BinghamPapanastasiouCoeffs": {"tau0": 1e-3, "m": 1000}}, None)}
 
 
 def number(value, good):
@@ -45,6 +49,14 @@ def applies(name):
     """Is it a run of mpmFoam with water?"""
     setup = HARD[name].setup(**HARD[name].quick)
     return not isinstance(setup, ElementTest) and "water" in setup.clouds
+
+
+def leastOf(case, fields):
+    """The smallest value of fields of the water at all times written"""
+    values = [case.case.cloudField(t, "water", field)
+              for t in case.times for field in fields
+              if (case.path/t/"lagrangian"/"water"/field).is_file()]
+    return float(min(v.min() for v in values if v.size))
 
 
 def run(model, name):
@@ -60,6 +72,10 @@ def run(model, name):
         case = setup.write(path/"case")
         hard.start(case)
         hard.bounds(bounds, case)
+        if water.get("turbulence") == "kEpsilon":
+            least = leastOf(case, ["k", "epsilon"])
+            bounds.rows.append(("smallest k and epsilon", least, ">", "0",
+                                least > 0))
     except AssertionError as error:
         reason = " ".join(str(error).split())
         bounds.rows.append(("runs to its end", 0.0, "", reason[-300:], False))

@@ -8,6 +8,7 @@ License
 #include "bodyWall.H"
 #include "effectsTable.H"
 #include "dictionaryEntries.H"
+#include "lanes.H"
 #include "PstreamReduceOps.H"
 #include "zeroGradientFvPatchFields.H"
 #include <algorithm>
@@ -267,6 +268,26 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
     }
     findMaxViscosity();
     cost_.stop();
+}
+
+
+void Foam::mpm::waterCloud::findStages(const scalar deltaT)
+{
+    nStages_ = 0;
+    if (!inStages_) return;
+
+    // As in this step, which the limits did not know yet
+    const scalar nu =
+        fluid_.mu()/fluid_.rho0()
+      + (nut_ < 0 ? 0 : returnReduce(maxNut_, maxOp<scalar>()));
+    const lattice& cells = grid_.cells();
+    if (deltaT*2*grid_.nDim()*nu <= sqr(cells.minSpacing())) return;
+
+    scalar sum = 0;
+    for (label d = 0; d < grid_.nDim(); ++d) sum += 1/sqr(cells.spacing(d));
+    const scalar z = deltaT*2*nu*sum/grid_.secondMoment();
+    nStages_ = label(std::ceil(0.5*(std::sqrt(1 + 4*z) - 1)));
+    if (nut_ >= 0) noViscosity_.resize(size() + nLanes, 0);
 }
 
 
@@ -606,6 +627,15 @@ Foam::mpm::waterCloud::waterCloud
     (
         turbulenceModel::New(dict, grid, U_, points_, control.strictKeywords)
     ),
+    inStages_
+    (
+        readChoiceOrDefault
+        (
+            dict, "viscousStep", "explicit", {"explicit", "stages"}
+        )
+     == "stages"
+    ),
+    nStages_(0),
     nut_
     (
         viscosity_.valid() || turbulence_.valid()
@@ -640,6 +670,15 @@ Foam::mpm::waterCloud::waterCloud
     {
         addMeshMeans();
         points_.add("shearRate", pointStorage::scalarValue);
+    }
+    if (inStages_ && grid.shapeFunction() == linear::name)
+    {
+        FatalIOErrorInFunction(dict)
+            << "keyword viscousStep is stages, with shapeFunction "
+            << linear::name << " in system/fvSolution, MPM: nodes may have next"
+            << " to no mass there, and no number of stages is stable." << nl
+            << "    Allowed: viscousStep explicit, or another shapeFunction"
+            << exit(FatalIOError);
     }
     boundary_.setLiquid(fluid_.rho0(), fluid_.mu()/fluid_.rho0());
     if (!fluid_.autoSoundSpeed()) select();
@@ -676,6 +715,7 @@ void Foam::mpm::waterCloud::checkDictionary
             "viscosityModel",
             dict.lookupOrDefault<word>("viscosityModel", "Newtonian")
           + "Coeffs",
+            "viscousStep",
             "turbulence",
             dict.lookupOrDefault<word>("turbulence", "none") + "Coeffs",
             "bodyForce",
@@ -1003,7 +1043,7 @@ Foam::scalar Foam::mpm::waterCloud::waveSpeed() const
 
 Foam::scalar Foam::mpm::waterCloud::viscosity() const
 {
-    return fluid_.mu()/fluid_.rho0() + globalMaxNut_;
+    return inStages_ ? 0 : fluid_.mu()/fluid_.rho0() + globalMaxNut_;
 }
 
 
@@ -1141,6 +1181,12 @@ void Foam::mpm::waterCloud::effects(effectsTable& table) const
     (
         "  shear-rate viscosity", viscosity_.valid(),
         viscosity_.valid() ? viscosity_->description() : "viscosityModel"
+    );
+    table.add
+    (
+        "  viscous stages", inStages_,
+        inStages_
+      ? "where steps are longer than h^2/(2 dim nu)" : "viscousStep"
     );
     table.add
     (

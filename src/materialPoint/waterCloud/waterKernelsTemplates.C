@@ -44,6 +44,16 @@ class waterKernelsFor
     }
     parted_;
 
+    //- Of viscousStages(): velocities before the first stage, forces of all
+    //  else, momentum given up to this stage and the one before it, at nodes and
+    //  by mirrors; empty without
+    struct
+    {
+        nodeField<nodeVector> start;
+        nodeField<nodeVector> force[2], now[2], before[2];
+    }
+    stages_;
+
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
 
@@ -459,6 +469,11 @@ class waterKernelsFor
     {
         waterCloud& c = cloud_;
         waterMaterial<dim, eddy> m(makeMaterial<eddy>(deltaT));
+        if (c.nStages_ > 0)
+        {
+            m.mu = 0;
+            if constexpr (eddy) m.nut = c.noViscosity_.data();
+        }
         if (c.cellQuadrature_)
         {
             m.cellPressure = cells_.pressures();
@@ -471,6 +486,119 @@ class waterKernelsFor
         );
         c.stressWork_ += deltaT*sumLanes(m.stressWork);
         c.correctionWork_ += sumLanes(m.correctionWork);
+    }
+
+    //- Viscous stress in stages, after all other forces: see waterCloud. With
+    //  F the viscous forces of the velocities v of a stage, the momentum given
+    //  is G_j = a (G_j-1 + w dt F_j-1) + (1 - a) G_j-2, v = v_0 + G/m.
+    //  The nodes' forces get what acts on the mean.
+    void viscousStages(const scalar deltaT)
+    {
+        waterCloud& c = cloud_;
+        nodalFields& nodes = c.nodes_;
+        const label s = c.nStages_;
+        if (s == 0) return;
+
+        c.startCost("viscous stages");
+        const pointView<dim> points(c.view<dim>());
+        const scalar nu = c.fluid_.mu()/c.fluid_.rho0();
+        const scalar* nut = c.nut_ < 0 ? nullptr : c.points_.column(c.nut_);
+        nodeField<nodeVector>* const forces[2] =
+            {&nodes.force, &nodes.mirrored.force};
+        auto& [start, force, now, before] = stages_;
+        start = nodes.velocity;
+        for (int f = 0; f < 2; ++f)
+        {
+            force[f].swap(*forces[f]);
+            for (auto* sum : {forces[f], &now[f], &before[f]})
+            {
+                sum->assign(force[f].size(), nodeVector{});
+            }
+        }
+
+        const scalar w = 2.0/(sqr(scalar(s)) + s);
+        for (label j = 1; j <= s; ++j)
+        {
+            const scalar a = (2.0*j - 1)/j;
+            kernels_.stressToGrid
+            (
+                points,
+                nodes.velocity,
+                [&]
+                (
+                    const label p,
+                    const lanes (&L)[dim + 1][dim],
+                    lanes (&flux)[dim][dim]
+                )
+                {
+                    lanes viscosity = allLanes(nu);
+                    if (nut) viscosity += loadLanes(nut + p);
+                    viscosity *= loadLanes(points.mass + p);
+                    lanes divV = L[0][0];
+                    for (int d = 1; d < dim; ++d) divV += L[d][d];
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        for (int e = 0; e < dim; ++e)
+                        {
+                            lanes strain = L[e][d] + L[d][e];
+                            if (e == d) strain -= (2.0/3.0)*divV;
+                            flux[d][e] = -viscosity*strain;
+                        }
+                    }
+                },
+                nodes
+            );
+            c.grid_.exchange().sum(nodes.force);
+
+            // The change since the stage before, of which what depends on each
+            // other takes its part
+            const auto advance = [&](const int f, const size_t i)
+            {
+                const nodeVector last = now[f][i];
+                now[f][i] =
+                    a*(last + w*deltaT*(*forces[f])[i])
+                  + (1 - a)*before[f][i];
+                before[f][i] = last;
+                (*forces[f])[i] = nodeVector{};
+                return now[f][i] - last;
+            };
+            this->forActiveNodes
+            (
+                [&](const label i)
+                {
+                    const scalar m = nodes.mass(i);
+                    const nodeVector change = advance(0, i);
+                    nodes.velocity[i] += (m > 0 ? 1/m : 0)*change;
+                }
+            );
+            for (size_t i = 0; i < force[1].size(); ++i) advance(1, i);
+            c.boundary_.constrain(nodes.velocity);
+            c.boundary_.react(nodes);
+        }
+
+        scalar work = 0;
+        this->forActiveNodes
+        (
+            [&](const label i)
+            {
+                scalar given = 0;
+                for (int d = 0; d < dim; ++d)
+                {
+                    given +=
+                        now[0][i][d]*(start[i][d] + nodes.velocity[i][d]);
+                }
+                work += 0.5*c.grid_.share(i)*given;
+            }
+        );
+        c.stressWork_ -= work;
+        for (int f = 0; f < 2; ++f)
+        {
+            force[f].swap(*forces[f]);
+            for (size_t i = 0; i < now[f].size(); ++i)
+            {
+                (*forces[f])[i] += now[f][i]/deltaT;
+            }
+        }
     }
 
 public:
@@ -508,6 +636,7 @@ public:
         waterCloud& c = cloud_;
 
         if (c.nut_ >= 0) c.correctViscosity(deltaT);
+        c.findStages(deltaT);
 
         c.startCost("volume (nodes)");
         saturations();
@@ -573,6 +702,7 @@ public:
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }
+        viscousStages(deltaT);
         this->relax(deltaT);
         c.cost_.stop();
     }
