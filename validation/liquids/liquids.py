@@ -23,7 +23,7 @@ for place in ["etc/python", "test", "test/cases"]:
     sys.path.insert(0, str(REPOSITORY/place))
 
 import caseBuilder  # noqa: E402
-from caseBuilder import G, RHO, Setup, hydrostatic  # noqa: E402
+from caseBuilder import G, RHO, Setup, box, hydrostatic  # noqa: E402
 from liquids import (  # noqa: E402
     KAPPA, BedChannel, Channel, binghamGap, binghamSlope, setField)
 from mpmfoam import figureTable  # noqa: E402
