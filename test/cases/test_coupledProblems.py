@@ -302,17 +302,13 @@ def testLooseGrainsFlowAsASuspension(tmp_path, figures):
 
 # --- time -----------------------------------------------------------------
 
-@pytest.mark.parametrize("step", ["explicit", "stages"])
-def testViscousStep(tmp_path, figures, step):
-    """A suspension in a liquid so viscous that diffusion limits the step, if
-    it is explicit: it falls as it should, and nothing grows"""
+def testViscousStep(tmp_path, figures):
+    """A suspension in a liquid so viscous that diffusion limits the step:
+    it falls as it should, and nothing grows"""
     run = coupling.settling(0.3, 0.2, end=0.6)
-    properties = run.settings[coupling.PROPERTIES]
-    properties[f"{coupling.FLUID}/mu"] = 100
-    properties["water/viscousStep"] = step
+    run.settings[coupling.PROPERTIES][f"{coupling.FLUID}/mu"] = 100
     case = solved(tmp_path, run)
-    figures.equal("limited by viscosity", run.log.dtLimiter == "viscosity",
-                  step == "explicit")
+    figures.equal("limiter", run.log.dtLimiter, "viscosity")
     figures.atMost("speed: error against the equilibrium",
                    abs(figuresOf(case, "settling")["settlingError"]), 0.05)
     exact = coupled.settlingSpeed(coupled.Medium(case), 0.3)

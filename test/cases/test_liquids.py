@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from caseBuilder import RHO, CaseError, Setup, box, damBreak, hydrostatic
-from liquids import BedChannel, Channel, binghamGap, setField
+from liquids import ASCII, BedChannel, Channel, binghamGap, setField
 from test_erosionCriteria import criteria, rows
 from test_parallel import agree
 from test_restart import differing
@@ -176,8 +176,8 @@ def testRanksAgree(tmp_path, figures, dim, water):
 
 @pytest.mark.parametrize("model", ["BinghamPapanastasiou", "HerschelBulkley"])
 def testBinghamGap(tmp_path, figures, model):
-    """16 cells; what the scheme's own viscosity leaves is 3 % with XAPIC and
-    m = 10 s, 2 % at 32 cells (validation/liquids)"""
+    """16 cells, XAPIC. With a first step that did not know the shear rate of
+    the flow it starts with it was 3.5 %"""
     setup, exact, time = binghamGap(
         model=model, water={"transfer": "XAPIC"})
     case = setup.until(time/2).write(tmp_path/"case").prepare()
@@ -188,7 +188,7 @@ def testBinghamGap(tmp_path, figures, model):
     case.solve()
     p = case.points()
     figures.atMost("flow over that of theory, less one", float(abs(
-        p.U[:, 0].mean()/exact(p.x[:, 1]).mean() - 1)), 0.05)
+        p.U[:, 0].mean()/exact(p.x[:, 1]).mean() - 1)), 0.02)
 
 
 def testYieldStressHoldsAColumn(tmp_path, figures):
@@ -255,7 +255,8 @@ def testStagesDecay(tmp_path, figures, mu, soundSpeed, longer):
         cells=(4, n), h=h, points=3, g=(0, 0, 0), energy=False,
         regions={"all": box((0, 0), (10, n*h), velocity=(0.3, 0, 0))},
         fluid={"mu": mu, "soundSpeed": soundSpeed},
-        water={"transfer": "XAPIC", **STAGES}).cyclic("x", "y")
+        water={"transfer": "XAPIC", **STAGES},
+        control=ASCII).cyclic("x", "y")
     case = setup.until(time).write(tmp_path/"case").prepare()
     x = case.case.cloudField("0", "water", "x")
     U = np.zeros_like(x)
@@ -284,6 +285,28 @@ def testStagesTakeEnergy(tmp_path, figures):
     e = case.energies()["total"]
     figures.atMost("growth of the energy over its initial value", float(
         (e - np.minimum.accumulate(e)).max()/e[0]), 1e-3)
+
+
+def testStagesOverABed(tmp_path, figures):
+    """Mud that flows over grains that are held, as with explicit stress"""
+    front, steps = {}, {}
+    for step in ["explicit", "stages"]:
+        case = damBreak(
+            points=2, energy=False, wall="slip", soilWall="slip",
+            water={**MUD, "viscousStep": step, "transfer": "APIC",
+                   "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 500}},
+            soil={"constitutiveModel": "rigidSkeleton",
+                  "rigidSkeletonCoeffs": {
+                      "rhoS": 2650, "d": 5e-3, "e0": 0.7}},
+            soilRegions={"bed": box((0, 0), (0.5, 0.06))}).until(0.2).write(
+                tmp_path/step).prepare()
+        case.solve()
+        front[step] = case.points().x[:, 0].max() - 0.2
+        steps[step] = max(case.timesByStep())
+    figures.atMost("front in stages over explicit, less one", float(abs(
+        front["stages"]/front["explicit"] - 1)), 0.05)
+    figures.atMost("steps over those of explicit stress",
+                   steps["stages"]/steps["explicit"], 0.35)
 
 
 @pytest.mark.parametrize("dim", [2, 3])

@@ -255,7 +255,7 @@ def backwardStep(path, n, bed="smoothWall"):
     simulation [Le, Moin and Kim 1997, J. Fluid Mech. 330], 6.0 measured [Jovic
     and Driver 1994, NASA TM 108807]. The boundary layer is thinner here"""
     H, U = 0.1, 1.0
-    h, before, behind = H/n, 10, 20
+    h, before, behind = H/n, 5, 16
     setup = Setup(
         cells=((before + behind)*n, 6*n), h=h, points=2, g=(0, 0, 0),
         solid=[((0, 0), (before*n, n))],
@@ -263,7 +263,7 @@ def backwardStep(path, n, bed="smoothWall"):
                                   "value": f"uniform ({U} 0 0)"}),
                "xmax": ("patch", "zeroGradient"), "ymax": ("wall", "slip")},
         wall={"type": bed}, energy=False,
-        fluid={"mu": RHO*U*H/5100, "soundSpeed": 15*U},
+        fluid={"mu": RHO*U*H/5100, "soundSpeed": 10*U},
         water={"turbulence": "kEpsilon", "transfer": "XAPIC",
                "kEpsilonCoeffs": {"k": 1e-3*U**2, "epsilon": 5e-4*U**3/H/10},
                "inflowOutflow": {
@@ -273,7 +273,7 @@ def backwardStep(path, n, bed="smoothWall"):
                                          "patch": "xmax"}}}},
         regions={"low": box((before*H, 0), (10, H), velocity=(0, 0, 0)),
                  "duct": box((0, H), (10, 6*H), velocity=(U, 0, 0))})
-    end = 120*H/U
+    end = 70*H/U
     case = setup.until(end, end/60).write(path).prepare()
     case.solve()
     step = before*H

@@ -488,6 +488,43 @@ class waterKernelsFor
         c.correctionWork_ += sumLanes(m.correctionWork);
     }
 
+    //- The shear rates that points start with: those of the step before do not
+    //  exist, and with none a liquid that yields would be stiff for a step
+    void startShearRates()
+    {
+        waterCloud& c = cloud_;
+        scalar* rate = c.points_.column(c.nut_ + 1);
+        kernels_.stressToGrid
+        (
+            c.view<dim>(),
+            c.nodes_.velocity,
+            [&]
+            (
+                const label p,
+                const laneMask& valid,
+                const lanes (&L)[dim + 1][dim],
+                lanes (&flux)[dim][dim]
+            )
+            {
+                lanes divV = L[0][0];
+                for (int d = 1; d < dim; ++d) divV += L[d][d];
+                lanes rateSqr{};
+                for (int d = 0; d < dim; ++d)
+                {
+                    for (int e = 0; e < dim; ++e)
+                    {
+                        lanes s = L[e][d] + L[d][e];
+                        if (e == d) s -= (2.0/3.0)*divV;
+                        rateSqr += 0.5*s*s;
+                        flux[d][e] = lanes{};
+                    }
+                }
+                storeLanes(rate + p, sqrtLanes(rateSqr), valid);
+            },
+            c.nodes_
+        );
+    }
+
     //- Viscous stress in stages, after all other forces: see waterCloud. With
     //  F the viscous forces of the velocities v of a stage, the momentum given
     //  is G_j = a (G_j-1 + w dt F_j-1) + (1 - a) G_j-2, v = v_0 + G/m.
@@ -527,6 +564,7 @@ class waterKernelsFor
                 [&]
                 (
                     const label p,
+                    const laneMask&,
                     const lanes (&L)[dim + 1][dim],
                     lanes (&flux)[dim][dim]
                 )
@@ -635,7 +673,11 @@ public:
     {
         waterCloud& c = cloud_;
 
-        if (c.nut_ >= 0) c.correctViscosity(deltaT);
+        if (c.nut_ >= 0)
+        {
+            if (c.time().timeIndex() <= 1) startShearRates();
+            c.correctViscosity(deltaT);
+        }
         c.findStages(deltaT);
 
         c.startCost("volume (nodes)");
