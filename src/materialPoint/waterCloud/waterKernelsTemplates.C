@@ -44,13 +44,13 @@ class waterKernelsFor
     }
     parted_;
 
-    //- Of viscousStages(): velocities before the first stage, forces of all
-    //  else, momentum given up to this stage and the one before it, at nodes and
-    //  by mirrors; empty without
+    //- Of accelerateInStages(): velocities before the first stage; forces of
+    //  all else, and momentum given up to this stage and the one before it, at
+    //  nodes and by mirrors. Empty without
     struct
     {
         nodeField<nodeVector> start;
-        nodeField<nodeVector> force[2], now[2], before[2];
+        nodeField<nodeVector> others[2], now[2], before[2];
     }
     stages_;
 
@@ -525,38 +525,38 @@ class waterKernelsFor
         );
     }
 
-    //- Viscous stress in stages, after all other forces: see waterCloud. With
-    //  F the viscous forces of the velocities v of a stage, the momentum given
-    //  is G_j = a (G_j-1 + w dt F_j-1) + (1 - a) G_j-2, v = v_0 + G/m.
-    //  The nodes' forces get what acts on the mean.
-    void viscousStages(const scalar deltaT)
+    //- As accelerate(), with the viscous stress in stages: see waterCloud. With
+    //  F the viscous forces of the velocities v of a stage, R all others, the
+    //  momentum given is G_j = a (G_j-1 + w dt (F_j-1 + R)) + (1 - a) G_j-2,
+    //  v = v_0 + G/m: where viscosity is strong, the v at which the two
+    //  balance. The forces of the nodes are then what acts on the mean.
+    void accelerateInStages(const scalar deltaT)
     {
         waterCloud& c = cloud_;
         nodalFields& nodes = c.nodes_;
-        const label s = c.nStages_;
-        if (s == 0) return;
-
-        c.startCost("viscous stages");
         const pointView<dim> points(c.view<dim>());
         const scalar nu = c.fluid_.mu()/c.fluid_.rho0();
         const scalar* nut = c.nut_ < 0 ? nullptr : c.points_.column(c.nut_);
         nodeField<nodeVector>* const forces[2] =
             {&nodes.force, &nodes.mirrored.force};
-        auto& [start, force, now, before] = stages_;
+        auto& [start, others, now, before] = stages_;
+
+        c.startCost("viscous stages");
         start = nodes.velocity;
+        if (!nodes.oldVelocity.empty()) nodes.oldVelocity = nodes.velocity;
         for (int f = 0; f < 2; ++f)
         {
-            force[f].swap(*forces[f]);
+            others[f].swap(*forces[f]);
             for (auto* sum : {forces[f], &now[f], &before[f]})
             {
-                sum->assign(force[f].size(), nodeVector{});
+                sum->assign(others[f].size(), nodeVector{});
             }
         }
 
-        const scalar w = 2.0/(sqr(scalar(s)) + s);
-        for (label j = 1; j <= s; ++j)
+        const scalar s = c.nStages_;
+        const scalar w = 2/(sqr(s) + s);
+        for (label j = 1; j <= c.nStages_; ++j)
         {
-            const scalar a = (2.0*j - 1)/j;
             kernels_.stressToGrid
             (
                 points,
@@ -588,55 +588,60 @@ class waterKernelsFor
             );
             c.grid_.exchange().sum(nodes.force);
 
-            // The change since the stage before, of which what depends on each
-            // other takes its part
+            const scalar a = (2.0*j - 1)/j;
             const auto advance = [&](const int f, const size_t i)
             {
                 const nodeVector last = now[f][i];
                 now[f][i] =
-                    a*(last + w*deltaT*(*forces[f])[i])
+                    a*(last + w*deltaT*((*forces[f])[i] + others[f][i]))
                   + (1 - a)*before[f][i];
                 before[f][i] = last;
                 (*forces[f])[i] = nodeVector{};
                 return now[f][i] - last;
             };
+
+            // Only the change since the stage before: nodes that depend on
+            // each other share it
             this->forActiveNodes
             (
                 [&](const label i)
                 {
                     const scalar m = nodes.mass(i);
                     const nodeVector change = advance(0, i);
-                    nodes.velocity[i] += (m > 0 ? 1/m : 0)*change;
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        nodes.velocity[i][d] += m > 0 ? change[d]/m : 0;
+                    }
                 }
             );
-            for (size_t i = 0; i < force[1].size(); ++i) advance(1, i);
+            for (size_t i = 0; i < others[1].size(); ++i) advance(1, i);
             c.boundary_.constrain(nodes.velocity);
             c.boundary_.react(nodes);
         }
 
-        scalar work = 0;
+        // The power of others is known, with the velocity at the start
+        scalar power = 0;
         this->forActiveNodes
         (
             [&](const label i)
             {
-                scalar given = 0;
+                scalar ofNode = 0;
                 for (int d = 0; d < dim; ++d)
                 {
-                    given +=
-                        now[0][i][d]*(start[i][d] + nodes.velocity[i][d]);
+                    const scalar mean = now[0][i][d]/deltaT;
+                    ofNode += (mean - others[0][i][d])*start[i][d];
+                    others[0][i][d] = mean;
                 }
-                work += 0.5*c.grid_.share(i)*given;
+                power += c.grid_.share(i)*ofNode;
             }
         );
-        c.stressWork_ -= work;
-        for (int f = 0; f < 2; ++f)
+        c.stressWork_ -= deltaT*power;
+        for (size_t i = 0; i < others[1].size(); ++i)
         {
-            force[f].swap(*forces[f]);
-            for (size_t i = 0; i < now[f].size(); ++i)
-            {
-                (*forces[f])[i] += now[f][i]/deltaT;
-            }
+            others[1][i] = now[1][i]/deltaT;
         }
+        for (int f = 0; f < 2; ++f) others[f].swap(*forces[f]);
+        c.startCost("nodes");
     }
 
 public:
@@ -732,19 +737,20 @@ public:
         const bool smoothing = c.settings_.smoothing;
 
         c.startCost("nodes");
-        this->accelerate
-        (
-            deltaT,
-            [&](const label i)
-            {
-                if (smoothing) c.nodes_.smoothed(i) = c.meanVolumeRatio(i);
-            }
-        );
+        const auto setSmoothed = [&](const label i)
+        {
+            if (smoothing) c.nodes_.smoothed(i) = c.meanVolumeRatio(i);
+        };
+        if (c.nStages_ > 0)
+        {
+            accelerateInStages(deltaT);
+            this->forActiveNodes(setSmoothed);
+        }
+        else this->accelerate(deltaT, setSmoothed);
         if (c.energyBalance_)
         {
             c.stressWork_ -= this->workOfAcceleration(deltaT);
         }
-        viscousStages(deltaT);
         this->relax(deltaT);
         c.cost_.stop();
     }
