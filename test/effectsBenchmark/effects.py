@@ -257,7 +257,7 @@ def effectRows():
         current()))
     mud = {"viscosityModel": "BinghamPapanastasiou",
            "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 50}}
-    rows.append(("viscous stages (8) for explicit", tank(water={
+    rows.append(("viscous stages (10) for explicit", tank(water={
         **mud, "viscousStep": "stages"}), tank(water=mud)))
     rows.append(("inlet and outlet", channel(), channel(open_=False)))
     rows.append(("roughWall for slip",
