@@ -735,7 +735,7 @@ def testDefaultsWork(tmp_path, figures):
     full.fluid.update(gamma=7, soundSpeed="auto")
     full.mpm = {"shapeFunction": "quadraticBSpline", "maxCo": 0.5,
                 "smoothing": True, "volumeCorrection": True,
-                "overlapCorrection": False,
+                "overlapCorrection": False, "looseningCorrection": False,
                 "sortInterval": 10, "logInterval": 10, "momentum": "explicit",
                 "strictKeywords": True}
     full.placement = {"placement": "regular"}

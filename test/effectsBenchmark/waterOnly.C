@@ -72,7 +72,7 @@ int main(int argc, char *argv[])
         control.lookupOrDefault<label>("sortInterval", 10),
         control.lookupOrDefault<Switch>("smoothing", true),
         control.lookupOrDefault<Switch>("volumeCorrection", true),
-        false, true, {}, false, GREAT
+        false, false, true, {}, false, GREAT
     };
     const mpm::backgroundGrid grid(mesh, control);
     mpm::costMeter cost;

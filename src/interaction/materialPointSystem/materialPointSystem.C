@@ -65,6 +65,8 @@ void Foam::mpm::materialPointSystem::readSettings()
             << nl << "    Allowed: no, or volumeCorrection yes"
             << exit(FatalIOError);
     }
+    settings_.looseningCorrection =
+        readSwitchOrDefault(control_, "looseningCorrection", false);
     settings_.sortInterval =
         readIntegerOrDefault(control_, "sortInterval", 10, 1, 999999);
 
@@ -111,8 +113,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         control_,
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
-            "volumeCorrection", "overlapCorrection", "maxSoilSoundSpeed",
-            "pressureForm", "logInterval", "strictKeywords", "gravity",
+            "volumeCorrection", "overlapCorrection", "looseningCorrection",
+            "maxSoilSoundSpeed", "pressureForm", "logInterval", "strictKeywords", "gravity",
             "relaxation", "momentum"
         },
         settings_.strictKeywords

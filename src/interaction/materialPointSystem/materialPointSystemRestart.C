@@ -109,6 +109,8 @@ void Foam::mpm::materialPointSystem::describeCase() const
     mpm.set("overlapCorrection", text(settings_.overlapCorrection));
     mpm.set("sortInterval", settings_.sortInterval);
     mpm.remove("logInterval");
+    // Not known to states before December 2026
+    if (!settings_.looseningCorrection) mpm.remove("looseningCorrection");
     mpm.remove("strictKeywords");
     record_.settings().set("MPM", mpm);
 

@@ -182,6 +182,12 @@ void Foam::mpm::materialPointCloud::findDepartures
     bool& inactive
 )
 {
+    bool cyclic = false;
+    for (label d = 0; d < grid_.nDim(); ++d)
+    {
+        cyclic = cyclic || grid_.cells().periodic(d);
+    }
+
     for (size_t m = 0; m < movers_.size(); ++m)
     {
         const label p = movers_[m];
@@ -212,7 +218,7 @@ void Foam::mpm::materialPointCloud::findDepartures
             i = returnFromWall(p);
         }
         const label rank = grid_.cellRank(grid_.index(i));
-        wrap(p, i);
+        if (cyclic) wrap(p, i);
 
         if (rank == Pstream::myProcNo())
         {

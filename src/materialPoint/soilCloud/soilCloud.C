@@ -633,6 +633,11 @@ void Foam::mpm::soilCloud::effects(effectsTable& table) const
         "  stiffness cap", settings_.maxSoilSoundSpeed < GREAT,
         "fvSolution/MPM/maxSoilSoundSpeed"
     );
+    table.add
+    (
+        "  loosening correction", settings_.looseningCorrection,
+        "fvSolution/MPM/looseningCorrection"
+    );
     openEffects(table);
 }
 

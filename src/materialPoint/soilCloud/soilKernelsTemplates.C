@@ -87,6 +87,33 @@ class soilKernelsFor
         }
     }
 
+    //- Volumetric strain of the points begin .. end - 1 that their velocity
+    //  gradients do not see, see soilMaterial
+    void loosen(const material& m, const label begin, const label end)
+    {
+        const soilCloud& c = cloud_;
+        const label* tile = c.points_.tile();
+        scalar most = 0;
+        for (label p = begin; p < end; ++p)
+        {
+            if (p == begin || tile[p] != tile[p - 1])
+            {
+                most = kernels_.most(c.nodes_.velocity, tile[p]);
+            }
+            const scalar ratio =
+                material::overLoosening*most*(1 + m.voidRatio[p]);
+            if (ratio >= 1) continue;
+
+            const scalar rate =
+                m.compactionRate
+               *min(material::maxExcess, -std::log(max(ratio, SMALL)));
+            for (int d = 0; d < dim; ++d)
+            {
+                work_.gradient[d*dim + d][p - begin] += rate/dim;
+            }
+        }
+    }
+
     //- What the constitutive model sees of the points begin .. end - 1
     soilPoints modelPoints
     (
@@ -265,6 +292,8 @@ public:
             m.begin = begin;
             view.n = end;
             kernels_.gradientToParticle(view, begin, m, keep, c.nodes_);
+
+            if (c.settings_.looseningCorrection) loosen(m, begin, end);
 
             soilPoints s(modelPoints(begin, end, coupling));
             c.model_->update(dim, s, deltaT);
