@@ -32,7 +32,8 @@ QUICK = ["seepageColumn", "settling", "wettingFront", "gate", "damBreak",
          "slopeAtRest", "standingWave", "waveMaker", "slopingFlume"]
 ORDER = QUICK + [
     "wallJet", "columnCollapse", "immersedCollapse", "bedUnderStillWater",
-    "waterInjection", "openChannel", "tsunamiOverflow", "damBreakObstacle3D"]
+    "waterInjection", "openChannel", "tsunamiOverflow", "damBreakObstacle3D",
+    "sheetPile", "pipelineScour", "pileScour3D"]
 
 # Forecasts of each, and runs of quick ones: a machine that is shared is by a third
 # slower or faster from one second to the next, which longer runs even out
