@@ -1,5 +1,7 @@
 """Bodies of any shape: surfaces for caseBuilder, and what their scenes show."""
 
+import re
+
 import numpy as np
 
 
@@ -42,3 +44,39 @@ def slope(degrees, through, length=10.0):
     b = np.array(through) + length*along
     return [tuple(a - length*normal), tuple(b - length*normal), tuple(b),
             tuple(a)]
+
+
+def solved(setup, path):
+    case = setup.write(path)
+    case.prepare()
+    case.solve()
+    return case
+
+
+def sameOnTwoRanks(figures, scene, path, cuts=((2, 1, 1),)):
+    """What two ranks find, for each way to part the mesh, and one"""
+    one = solved(scene(), path/"one")
+    for n in cuts:
+        two = scene().write(path/f"two{n[0]}")
+        two.prepare()
+        two.decompose(2, n)
+        two.solve(ranks=2)
+        a, b = one.points(), two.points()
+        figures.atMost("positions, m", abs(a.x - b.x).max(), 1e-10)
+        figures.atMost("velocities, m/s", abs(a.U - b.U).max(), 1e-10)
+
+
+def sameAfterRestart(figures, scene, path):
+    """Two halves of a run to 0.04 s and the whole; scene takes its end"""
+    whole = solved(scene(), path/"whole")
+    parts = solved(scene(0.02), path/"parts")
+    control = parts.path/"system"/"controlDict"
+    control.write_text(re.sub(
+        r"endTime [^;]*;", "endTime 0.04;", control.read_text()))
+    parts.solve()
+    for cloud in whole.setup.clouds:
+        for name in ["x", "U"]:
+            a, b = (case.case.cloudField("0.04", cloud, name)
+                    for case in [whole, parts])
+            figures.holds(f"{name} of {cloud} the same to the last bit",
+                          (a == b).all())

@@ -7,7 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from bodies import cylinder, prism, slope, surface
+from bodies import (cylinder, prism, sameAfterRestart, sameOnTwoRanks, slope,
+                    solved, surface)
 from caseBuilder import G, RHO, CaseError, Setup, box, hydrostatic
 
 
@@ -21,13 +22,6 @@ def forces(case, body="pipe", cloud="water"):
     found = re.findall(
         rf"body {body}:.*?force of {cloud} \(([^)]*)\)", text)
     return np.array([[float(v) for v in f.split()] for f in found])
-
-
-def solved(setup, path):
-    case = setup.write(path/"case")
-    case.prepare()
-    case.solve()
-    return case
 
 
 @pytest.mark.parametrize("degrees", [26.6, 45])
@@ -259,30 +253,12 @@ def standing(end=0.02):
 
 @pytest.mark.parametrize("scene", [turning, drifting, standing])
 def testTwoRanks(tmp_path, figures, scene):
-    one = solved(scene(), tmp_path/"one")
-    two = scene().write(tmp_path/"two"/"case")
-    two.prepare()
-    two.decompose(2)
-    two.solve(ranks=2)
-    a, b = one.points(), two.points()
-    figures.atMost("positions, m", abs(a.x - b.x).max(), 1e-10)
-    figures.atMost("velocities, m/s", abs(a.U - b.U).max(), 1e-10)
+    sameOnTwoRanks(figures, scene, tmp_path)
 
 
 @pytest.mark.parametrize("scene", [turning, drifting])
 def testRestart(tmp_path, figures, scene):
-    whole = solved(scene(), tmp_path/"whole")
-    parts = solved(scene(0.02), tmp_path/"parts")
-    control = parts.path/"system"/"controlDict"
-    control.write_text(re.sub(
-        r"endTime [^;]*;", "endTime 0.04;", control.read_text()))
-    parts.solve()
-    for cloud in whole.setup.clouds:
-        for name in ["x", "U"]:
-            a, b = (case.case.cloudField("0.04", cloud, name)
-                    for case in [whole, parts])
-            figures.holds(f"{name} of {cloud} the same to the last bit",
-                          (a == b).all())
+    sameAfterRestart(figures, scene, tmp_path)
 
 
 def block(degrees, friction, end):

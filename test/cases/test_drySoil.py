@@ -25,7 +25,7 @@ def testPointsFarApart(tmp_path, figures, loosening, part):
     """Points that show the grid a part of their solid, as after half of the
     others have been thrown elsewhere, in a fall that strains nothing. With the
     correction they end at the void ratio of (1 + e) 1.1 n_s = 1; packed
-    ones, at the surface too, and all without it keep theirs"""
+    ones, and all without it, keep theirs"""
     e0 = SAND["e0"]
     setup = Setup(
         cells=(12, 24), h=0.01, regions={}, energy=False, soilWall="slip",

@@ -7,16 +7,10 @@ import re
 import numpy as np
 import pytest
 
+from bodies import sameAfterRestart, sameOnTwoRanks, solved
 from caseBuilder import G, RHO, CaseError, Setup, box, hydrostatic
 from plates import (blobs, discharge, forces, height, inclined, oneSided,
                     oneSidedFigures, plate, sluice)
-
-
-def solved(setup, path):
-    case = setup.write(path)
-    case.prepare()
-    case.solve()
-    return case
 
 
 @pytest.mark.parametrize("degrees", [90, 60, 120])
@@ -161,31 +155,12 @@ def solid3D(end=0.04):
 
 @pytest.mark.parametrize("scene", [mixed, solid3D])
 def testTwoRanks(tmp_path, figures, scene):
-    one = solved(scene(), tmp_path/"one")
-    for n in [(2, 1, 1), (1, 2, 1)]:
-        two = scene().write(tmp_path/f"two{n[0]}")
-        two.prepare()
-        two.decompose(2, n)
-        two.solve(ranks=2)
-        a, b = one.points(), two.points()
-        figures.atMost("positions, m", abs(a.x - b.x).max(), 1e-10)
-        figures.atMost("velocities, m/s", abs(a.U - b.U).max(), 1e-10)
+    sameOnTwoRanks(figures, scene, tmp_path, [(2, 1, 1), (1, 2, 1)])
 
 
 @pytest.mark.parametrize("scene", [mixed, solid3D])
 def testRestart(tmp_path, figures, scene):
-    whole = solved(scene(), tmp_path/"whole")
-    parts = solved(scene(0.02), tmp_path/"parts")
-    control = parts.path/"system"/"controlDict"
-    control.write_text(re.sub(
-        r"endTime [^;]*;", "endTime 0.04;", control.read_text()))
-    parts.solve()
-    for cloud in whole.setup.clouds:
-        for name in ["x", "U"]:
-            a, b = (case.case.cloudField("0.04", cloud, name)
-                    for case in [whole, parts])
-            figures.holds(f"{name} of {cloud} the same to the last bit",
-                          (a == b).all())
+    sameAfterRestart(figures, scene, tmp_path)
 
 
 def testStillWaterIn3D(tmp_path, figures):

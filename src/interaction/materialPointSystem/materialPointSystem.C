@@ -114,8 +114,8 @@ void Foam::mpm::materialPointSystem::readSettings()
         {
             "shapeFunction", "maxCo", "sortInterval", "smoothing",
             "volumeCorrection", "overlapCorrection", "looseningCorrection",
-            "maxSoilSoundSpeed", "pressureForm", "logInterval", "strictKeywords", "gravity",
-            "relaxation", "momentum"
+            "maxSoilSoundSpeed", "pressureForm", "logInterval",
+            "strictKeywords", "gravity", "relaxation", "momentum"
         },
         settings_.strictKeywords
     );
