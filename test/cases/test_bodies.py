@@ -168,12 +168,9 @@ def testMomentumOfWaterAndBody(tmp_path, figures, transfer, density):
         (end.kinetic + 0.5*mass*velocity @ velocity)/start.kinetic, 1)
 
 
-def testABodyOnASpring(tmp_path, figures):
-    """OpenFOAM's restraints act on it: half a period of a mass on a spring,
-    away from the water"""
-    mass, stiffness, amplitude = 2.0, 2000.0, 0.05
-    half = np.pi*np.sqrt(mass/stiffness)
-    case = solved(Setup(
+def onASpring(half, mass, stiffness, amplitude, **control):
+    """A mass on a spring, away from the water"""
+    setup = Setup(
         cells=(40, 40), h=0.02, g=(0, 0, 0), points=2,
         regions={"puddle": box((0, 0), (0.1, 0.04))},
         fluid={"soundSpeed": 20},
@@ -192,13 +189,34 @@ def testABodyOnASpring(tmp_path, figures):
             "type": "materialPointForces", "cloud": "water",
             "libs": '("libmpmFunctionObjects.so")',
             "writeControl": "timeStep", "writeInterval": 1}},
-        energy=False).until(half), tmp_path)
+        energy=False)
+    setup.control.update(control)
+    return setup.until(half)
+
+
+def testABodyOnASpring(tmp_path, figures):
+    """OpenFOAM's restraints act on it: half a period"""
+    mass, stiffness, amplitude = 2.0, 2000.0, 0.05
+    half = np.pi*np.sqrt(mass/stiffness)
+    case = solved(onASpring(half, mass, stiffness, amplitude), tmp_path)
     x, speed = np.loadtxt(case.path/"postProcessing"/"forces"/"0"/"forces.dat")[
         -1, [7, 10]]
     figures.atMost("error of its way over the amplitude, %",
                    100*abs((0.5 - x)/(2*amplitude) - 1), 0.1)
     figures.atMost("speed at the turn over the largest, %", 100*abs(
         speed)/(amplitude*np.sqrt(stiffness/mass)), 1)
+
+
+def testDigitsOfASpring(tmp_path, figures):
+    """What the restraints see of a body has nothing to do with the digits
+    that are written"""
+    place = []
+    for digits in [3, 12]:
+        case = solved(onASpring(0.02, 2.0, 2000.0, 0.05, writePrecision=digits),
+                      tmp_path/str(digits))
+        state = (case.path/case.times[-1]/"uniform"/"materialPoints").read_text()
+        place.append(re.search(r"centre\s+\((.*?)\)", state)[1])
+    figures.equal("centre of the body", place[0], place[1])
 
 
 def turning(end=0.04):

@@ -14,12 +14,12 @@ from caseBuilder import Setup, box, damBreak, foamText, hydrostatic
 from test_restart import limitFileSize
 
 
-def withSoil():
+def withSoil(h=0.02):
     """Water over a bed of soil, small"""
     return Setup(
-        cells=(10, 10), h=0.02, points=2, energy=False,
-        regions={"column": hydrostatic((0, 0), (0.1, 0.14))},
-        soilRegions={"bed": box((0, 0), (0.2, 0.06), stress="geostatic")})
+        cells=(10, 10), h=h, points=2, energy=False,
+        regions={"column": hydrostatic((0, 0), (5*h, 7*h))},
+        soilRegions={"bed": box((0, 0), (10*h, 3*h), stress="geostatic")})
 
 
 def refused(figures, result, *patterns):
@@ -394,6 +394,35 @@ def testDigitsAreRaised(tmp_path, figures):
     points = case.points()
     figures.equal("points with an id of their own",
                   len(np.unique(points.id)), 900)
+
+
+def longNumbers():
+    """A start with OpenFOAM's writePrecision and values of more digits: kg/m3
+    of water at 20 degrees, thirds of millimetres and of metres"""
+    setup = withSoil(h=0.1/3)
+    setup.control.update(writePrecision=6)
+    setup.fluid["rho0"] = 998.2071123
+    coeffs = setup.properties()["soil"]["DruckerPragerCoeffs"]
+    setup.soil = {"DruckerPragerCoeffs": {**coeffs, "d": 0.001/3}}
+    return setup
+
+
+def testLongNumbers(tmp_path, figures):
+    """A case is its own, however few digits controlDict asks for: at the
+    start and in a restart"""
+    case = longNumbers().steps(3).write(tmp_path/"case").prepare()
+    case.solve()
+    case.change(control={"startFrom": "latestTime", "endTime": 1e-2})
+    log = case.solve()
+    figures.holds("goes on as the same case", "another" not in log.text)
+
+
+def testOtherInTheSeventhDigit(tmp_path, figures):
+    """What is another is told apart, and with the digits that tell"""
+    case = longNumbers().steps(3).write(tmp_path/"case").prepare()
+    case.change(fluid={"rho0": 998.2071124})
+    refused(figures, case.solve(check=False),
+            r"water/rho0 was 998\.207112(29|3)\d*, is 998\.207112(39|4)")
 
 
 # --- meshes ---------------------------------------------------------------

@@ -5,6 +5,7 @@ License
 
 #include "closedSurface.H"
 #include "dictionaryEntries.H"
+#include "exactDigits.H"
 #include "triSurfaceMesh.H"
 #include "HashTable.H"
 #include "Time.H"
@@ -42,6 +43,7 @@ Foam::dictionary Foam::mpm::closedSurface::entries
         );
     }
 
+    const exactDigits exact;
     dictionary entries(dict_);
     if (type == "cylinder" || type == "sphere")
     {

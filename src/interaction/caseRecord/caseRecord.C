@@ -4,9 +4,11 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "caseRecord.H"
+#include "exactDigits.H"
 #include "ITstream.H"
 #include "PstreamReduceOps.H"
 #include "StringStream.H"
+#include <string>
 
 const Foam::word Foam::mpm::caseRecord::recordName("case");
 const Foam::word Foam::mpm::caseRecord::basisName("basis");
@@ -148,13 +150,15 @@ void Foam::mpm::caseRecord::addMesh(const lattice& cells)
     }
     reduce(places, sumOp<scalar>());
 
+    const exactDigits exact;
     dictionary mesh;
     mesh.set("dimensions", cells.nDim());
     mesh.set("origin", origin);
     mesh.set("spacing", spacing);
     mesh.set("latticeCells", number);
     mesh.set("cells", returnReduce(int64_t(n), sumOp<int64_t>()));
-    mesh.set("places", places);
+    // A word, which no precision of numbers rounds
+    mesh.set("places", word("sum" + std::to_string(int64_t(places))));
     basis_.set("mesh", mesh);
 }
 
@@ -187,6 +191,7 @@ void Foam::mpm::caseRecord::checkBasis(const dictionary& state) const
     is.remove("mesh");
     if (!oldMesh.empty())
     {
+        const exactDigits exact;
         const scalar tolerance = 1e-3;
         const vector h(oldMesh.get<vector>("spacing"));
         const vector h2(newMesh.get<vector>("spacing"));
@@ -204,6 +209,18 @@ void Foam::mpm::caseRecord::checkBasis(const dictionary& state) const
         }
         if (!moved) oldRest.set("origin", newMesh.get<vector>("origin"));
         if (!scaled) oldRest.set("spacing", h2);
+
+        // Before December 2026 a number of as many digits as writePrecision
+        const token places(oldMesh.lookup("places"));
+        if (places.isNumber())
+        {
+            const word now(newMesh.get<word>("places"));
+            const scalar exact = std::stod(now.substr(3));
+            if (mag(places.number() - exact) <= 1e-5*exact)
+            {
+                oldRest.set("places", now);
+            }
+        }
         compare(oldRest, newRest, "mesh", changes);
 
         // The number says more than which
@@ -377,7 +394,15 @@ void Foam::mpm::caseRecord::compare
         {
             continue;
         }
-        changes.append(change{path, keyword, text(a), text(b)});
+        change found{path, keyword, text(a), text(b)};
+        if (found.was == found.is)
+        {
+            // They part in digits that controlDict does not ask for
+            const exactDigits exact;
+            found.was = text(a);
+            found.is = text(b);
+        }
+        changes.append(found);
     }
 }
 

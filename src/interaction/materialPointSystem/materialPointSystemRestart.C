@@ -10,6 +10,7 @@ License
 #include "PstreamReduceOps.H"
 #include "cloud.H"
 #include "bodies.H"
+#include "exactDigits.H"
 #include "lagrangianOutput.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
@@ -87,6 +88,7 @@ bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
 
 void Foam::mpm::materialPointSystem::describeCase() const
 {
+    const exactDigits exact;
     auto text = [](const bool on) { return word(on ? "yes" : "no"); };
 
     DynamicList<word> names;
@@ -154,6 +156,7 @@ Foam::dictionary Foam::mpm::materialPointSystem::placement() const
     );
     if (!IOobject(header).typeHeaderOk<IOdictionary>(true)) return dictionary();
 
+    const exactDigits exact;
     dictionary result(static_cast<const dictionary&>(IOdictionary(header)));
     result.set("gravity", g_);
     return result;
@@ -410,8 +413,7 @@ void Foam::mpm::materialPointSystem::writeState() const
             false
         )
     );
-    // Enough digits to read the same number again
-    const unsigned precision = IOstream::defaultPrecision(17);
+    const exactDigits exact;
 
     for (const materialPointCloud& cloud : clouds_)
     {
@@ -438,7 +440,6 @@ void Foam::mpm::materialPointSystem::writeState() const
     (
         [&] { return state.regIOobject::write(); }, state.objectPath()
     );
-    IOstream::defaultPrecision(precision);
 }
 
 // ************************************************************************* //

@@ -5,6 +5,7 @@ License
 
 #include "rigidMotion.H"
 #include "dictionaryEntries.H"
+#include "exactDigits.H"
 #include "SquareMatrix.H"
 #include "scalarMatrices.H"
 #include "pointConstraint.H"
@@ -67,6 +68,7 @@ void Foam::mpm::rigidMotion::restrain(vector& force, vector& moment) const
     if (restraints_.empty()) return;
 
     // What OpenFOAM's restraints look at
+    const exactDigits exact;
     dictionary solver, state, coeffs;
     solver.add("type", "symplectic");
     coeffs.add("solver", solver);
