@@ -233,6 +233,62 @@ def testTime(tmp_path, figures):
     figures.holds("--rest is noted", "from rest, as asked" in done.stdout)
 
 
+def testBinaryAndMacros(tmp_path, figures):
+    """As setFields leaves it with writeFormat binary; a velocity by a macro;
+    a patch that only the case's Allrun would make"""
+    source = interFoamCase(tmp_path/"tank")
+    setEntry(source/"system"/"controlDict", "writeFormat", "binary")
+    shutil.copytree(source/"0.orig", source/"0")
+    shutil.rmtree(source/"0.orig")
+    for command in ["blockMesh", "setFields"]:
+        assert call(command, cwd=source).returncode == 0
+    figures.holds("alpha is binary", b"binary;" in (
+        source/"0"/"alpha.water").read_bytes())
+    U = (source/"0"/"U")
+    text = U.read_text(errors="replace")
+    text = text.replace("internalField uniform (0 0 0)",
+                        "along 0.1;\ninternalField uniform ($along 0 0)")
+    U.write_text(text.replace("boundaryField\n{", "boundaryField\n{\n"
+                              "    baffle { type noSlip; }"))
+    figures.holds("a macro", "$along" in U.read_text())
+    done = call("interFoamToMpmFoam", source, tmp_path/"new")
+    print(done.stdout + done.stderr)
+    figures.equal("exit status", done.returncode, 0)
+    figures.contains("the baffle", re.search(
+        "left behind: patch baffle of 0/U", done.stdout), "baffle")
+    done = call("setMaterialPoints", cwd=_started(tmp_path/"new"))
+    figures.equal("points are set", done.returncode, 0)
+    c = Case(tmp_path/"new")
+    figures.equal("points", len(c.cloudField("0", "water", "x")), 12*10*16)
+    figures.atMost("velocity, error", np.abs(
+        c.cloudField("0", "water", "U") - [0.1, 0, 0]).max(), 1e-12)
+
+
+def testMud(tmp_path, figures):
+    """A liquid with a yield stress keeps its coefficients, and sticks to the
+    walls as long as they say so"""
+    source = interFoamCase(tmp_path/"tank")
+    path = source/"constant"/"transportProperties"
+    text = path.read_text()
+    assert "transportModel  Newtonian;" in text
+    path.write_text(text.replace("transportModel  Newtonian;", """
+    transportModel  HerschelBulkley;
+    HerschelBulkleyCoeffs { tau0 0.05; k [0 2 -1 0 0 0 0] 0.01; n 0.5; nu0 10; }
+""", 1))
+    done = call("interFoamToMpmFoam", source, tmp_path/"new")
+    print(done.stdout + done.stderr)
+    figures.equal("exit status", done.returncode, 0)
+    water = foamDict.read(
+        tmp_path/"new"/"constant"/"materialPointProperties")["water"]
+    figures.equal("model", water["viscosityModel"], "HerschelBulkley")
+    figures.equal("coefficients", water["HerschelBulkleyCoeffs"],
+                  {"tau0": "0.05", "k": "0.01", "n": "0.5", "nu0": "10"})
+    figures.equal("mu", water["weaklyCompressibleNewtonianCoeffs"]["mu"], "0")
+    figures.holds("walls hold it", "noSlip becomes slip" not in done.stdout)
+    log = runMpm(tmp_path/"new", "0.0002")
+    figures.holds("runs to its end", log.rstrip().endswith("End"))
+
+
 def _started(case):
     shutil.copytree(case/"0.orig", case/"0")
     return case
@@ -363,7 +419,11 @@ def testThereAndBack(tmp_path, figures):
     ("0.orig/alpha.water", "inletValue uniform 0", "inletValue uniform 1",
      ["alpha.water: entry boundaryField/top/inletValue", "value 1"]),
     ("constant/transportProperties", "Newtonian", "CrossPowerLaw",
-     ["entry water/transportModel", "CrossPowerLaw", "Allowed: Newtonian"]),
+     ["entry water/transportModel", "CrossPowerLaw", "Allowed: Newtonian",
+      "HerschelBulkley"]),
+    ("0.orig/U", "uniform (0 0 0)", "uniform (still 0 0)",
+     ["U: entry internalField has the value uniform \\(still 0 0\\)",
+      "Allowed: uniform and a vector"]),
     ("constant/transportProperties", "(water air)", "(water)",
      ["entry phases", "two phases"]),
     ("system/controlDict", "application interFoam",

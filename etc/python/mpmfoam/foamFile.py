@@ -1,6 +1,7 @@
 """Lists and internal fields of OpenFOAM files, ascii or binary."""
 
 import re
+import subprocess
 
 import numpy as np
 
@@ -18,6 +19,11 @@ _COMMENT = re.compile(rb"\s*(//[^\n]*|/\*.*?\*/)?\s*", re.DOTALL)
 
 class FoamFileError(Exception):
     """A file that is no OpenFOAM file, or not of the kind asked for."""
+
+
+def isBinary(path):
+    """Is what a file holds written in binary?"""
+    return _open(path)[1]["format"] == "binary"
 
 
 def readList(path):
@@ -48,7 +54,16 @@ def readInternalField(path, size):
     if not entry:
         raise FoamFileError(f"{path}: no internalField")
     if entry[1]:
-        value = _shape(_numbers(entry[2]), kind)
+        text = entry[2]
+        if b"$" in text or b"#" in text:
+            text = _expanded(path, "internalField").removeprefix(b"uniform")
+        try:
+            value = _shape(_numbers(text), kind)
+        except ValueError as error:
+            raise FoamFileError(
+                f"{path}: entry internalField has the value uniform "
+                f"{text.decode(errors='replace').strip()}.\n    Allowed: "
+                f"uniform and a {kind}") from error
         return np.repeat(value, size, axis=0)
 
     values, _ = _parseList(path, data, entry.end(), kind, header)
@@ -110,6 +125,18 @@ def _open(path):
     header["arch"] = dict(
         re.findall(r"(label|scalar)=(\d+)", header.get("arch", "")))
     return data, header, _skip(data, found.end())
+
+
+def _expanded(path, entry):
+    """The value of an entry whose macros foamDictionary has replaced"""
+    done = subprocess.run(
+        ["foamDictionary", str(path), "-entry", entry, "-value"],
+        capture_output=True)
+    if done.returncode:
+        raise FoamFileError(
+            f"{path}: entry {entry}: foamDictionary cannot read it:\n"
+            + (done.stderr or done.stdout).decode(errors="replace").strip())
+    return done.stdout.strip()
 
 
 def _skip(data, pos):

@@ -127,7 +127,8 @@ class InterFoamCase:
                     f"{self.case}: neither constant/polyMesh/points nor "
                     "system/blockMeshDict: make the mesh first")
             later = [n for n in ["snappyHexMeshDict", "topoSetDict",
-                                 "extrudeMeshDict", "refineMeshDict"]
+                                 "extrudeMeshDict", "refineMeshDict",
+                                 "mirrorMeshDict", "createBafflesDict"]
                      if (self.work/"system"/n).is_file()]
             if later:
                 raise FoamFileError(
@@ -161,9 +162,20 @@ class InterFoamCase:
             d.fail("phases", "two phases, water first: (water air)")
         self.phase = phases[0]
         water, air = (d.sub(p) for p in phases)
-        water.word("transportModel", "Newtonian", ["Newtonian"])
+        model = water.word("transportModel", "Newtonian",
+                           ["Newtonian", "HerschelBulkley"])
         self.rho = _quantity(water, "rho")
-        self.mu = self.rho*_quantity(water, "nu")
+        # Kinematic, as mpmFoam's model of that name has them
+        self.yieldStress = {}
+        if model == "HerschelBulkley":
+            coeffs = water.sub("HerschelBulkleyCoeffs")
+            self.yieldStress = {k: _quantity(coeffs, k)
+                                for k in ["tau0", "k", "n", "nu0"]}
+            self.mu = 0.0
+            self.nuMax = self.yieldStress["nu0"]
+        else:
+            self.nuMax = _quantity(water, "nu")
+            self.mu = self.rho*self.nuMax
         rhoAir = _quantity(air, "rho")
         self.air = {"rho": rhoAir, "nu": _quantity(air, "nu")}
         if rhoAir > 0.1*self.rho:
@@ -202,7 +214,9 @@ class InterFoamCase:
                     inner = d.get(kind, {})
                     model = inner.get(f"{kind}Model", "")
                     self.note("left behind", f"turbulence model {kind} "
-                              f"{model}: mpmFoam has none")
+                              f"{model}: the new case is laminar (mpmFoam has "
+                              "mixingLength, Smagorinsky and kEpsilon: "
+                              "docs/theory.md)")
         path = constant/"dynamicMeshDict"
         if path.is_file():
             kind = foamDict.read(path).get("dynamicFvMesh", "staticFvMesh")
@@ -242,7 +256,25 @@ class InterFoamCase:
 
     def boundary(self, name):
         """boundaryField of a field at the start"""
+        if foamFile.isBinary(self._field(name)):
+            # foamDictionary cannot read such lists
+            for key, value in [("writeFormat", "ascii"),
+                               ("writePrecision", "16")]:
+                run(self.work, "foamDictionary", "system/controlDict",
+                    "-disableFunctionEntries", "-entry", key, "-set", value)
+            run(self.work, "foamFormatConvert", "-time", self.time)
         return foamDict.read(self._field(name), "boundaryField")
+
+    def _otherPatches(self, name):
+        """Say which patches of a field the mesh does not have, as those of
+        baffles that are not made yet"""
+        names = {p.name for p in self.mesh.patches}
+        names.update(g for p in self.mesh.patches for g in p.groups)
+        for key in self.boundary(name):
+            if re.fullmatch(r"\w+", key) and key not in names:
+                self.note("left behind", f"patch {key} of {self.time}/{name}: "
+                          "the mesh has none of that name (if a utility of "
+                          "the case's Allrun makes it, run that first)")
 
     def _start(self, time):
         self.time = "0"
@@ -269,6 +301,7 @@ class InterFoamCase:
                 alpha = foamFile.readInternalField(self._field(name), n)
         self.alpha = np.clip(alpha, 0, 1)
         self.U = foamFile.readInternalField(self._field("U"), n)
+        self._otherPatches("U")
         self.volume = float((self.alpha*self.mesh.volumes).sum())
 
 
@@ -487,8 +520,7 @@ class Conversion:
         self.rest = {}
         path = inter.case/inter.time/"U"
         end = inter.control.number("endTime")
-        nu = inter.mu/inter.rho
-        layer = np.sqrt(nu*end)
+        layer = np.sqrt(inter.nuMax*end)
         for patch in inter.mesh.patches:
             entry = {"type": patch.type}
             if patch.type == "cyclic":
@@ -818,6 +850,17 @@ class Conversion:
 {inlets}        }}
     }}
 """ if inlets else ""
+        liquid = ""
+        if self.inter.yieldStress:
+            coeffs = "".join(f"        {k:12s}{v:.10g};\n"
+                             for k, v in self.inter.yieldStress.items())
+            liquid = f"""
+    viscosityModel      HerschelBulkley;
+
+    HerschelBulkleyCoeffs
+    {{
+{coeffs}    }}
+"""
         (self.target/"constant"/"materialPointProperties").write_text(
             foamDict.header("materialPointProperties") + f"""
 clouds      (water);
@@ -835,7 +878,7 @@ water
     }}
 
     transfer            APIC;
-{flow}}}
+{liquid}{flow}}}
 """)
 
     def _placement(self):
