@@ -4,7 +4,11 @@ height of the deposit and time against the scalings of Lube et al. and of
 Lajeunesse et al., on two grids.
 
 The front is where 99.5 % of the grains lie behind; a few that jump ahead are
-no deposit. Beside it the toe, where the deposit is thinner than a grain."""
+no deposit. Beside it the toe, where the deposit is thinner than a grain.
+
+And columns of the grains of Lagree, Staron and Popinet (2011), whose friction
+is known, against 2.2 a of their simulations: on a floor that holds all grains,
+as theirs, and on one with friction."""
 
 import sys
 from pathlib import Path
@@ -15,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 sys.path.insert(0, str(REPOSITORY/"etc"/"python"))
 
-from mpmfoam import metrics, reference, study, style  # noqa: E402
+from mpmfoam import foamDict, metrics, reference, study, style  # noqa: E402
 
 G = 9.81
 L0 = 0.1
@@ -35,6 +39,44 @@ def lajeunesse(a):
 
 def lubeHeight(a):
     return a if a < 1.15 else a**0.4
+
+
+# Grains of Lagree et al.: constant stiffness, muI. L0 over d as in their
+# simulations of grains: 60 at a = 0.5, 46 at 1.42, 21 at 6.26, some 2900
+# grains in all
+MUI = """
+clouds (soil);
+soil
+{{
+    constitutiveModel muI;
+    muICoeffs
+    {{
+        rhoS 2650; d {d:.6g}; e0 0.66; E 1e6; nu 0.2;
+        muS 0.32; muD 0.6; I0 0.4; pRes {pRes:.3g};
+    }}
+}}
+"""
+LAGREE = 2.2
+FLOORS = {"holds": "noSlip", "rubs": "frictional"}
+
+
+def grainSize(a):
+    return L0/60 if a <= 0.5 else L0/round(np.sqrt(2900/a))
+
+
+def grains(a, n, floor):
+    """The same column of other grains; a transfer by default"""
+    run = collapse(a, n)
+    run.name = f"grains_a{a}_n{n}_{floor}"
+    # As small as the finest grains ask for
+    run.files = {"constant/materialPointProperties": foamDict.header(
+        "materialPointProperties") + MUI.format(
+            d=grainSize(a), pRes=0.002)}
+    run.settings["0.orig/U.soil"] = {
+        "boundaryField/floor/type": FLOORS[floor],
+        "boundaryField/floor/frictionCoefficient": 0.6}
+    run.about["floor"] = floor
+    return run
 
 
 def collapse(a, n):
@@ -61,8 +103,8 @@ def collapse(a, n):
         about={"a": a, "n": n, "h": h})
 
 
-def front(x):
-    return np.sort(x[:, 0])[int(0.995*len(x))]
+def front(x, share=0.995):
+    return np.sort(x[:, 0])[min(int(share*len(x)), len(x) - 1)]
 
 
 def toe(case, time, h, d=2e-3, rhoS=2650):
@@ -103,8 +145,35 @@ def steepest(profile, h):
     return np.degrees(np.arctan(max(drops))) if drops else 0
 
 
+def evaluateGrains(done, results):
+    """Run-outs over 2.2 a less 1, by three fronts; the interface that Lagree
+    et al. follow ends at the farthest of the grains that are no drops"""
+    table = {k: [] for k in ["a", "cellsPerL0", "floor", "grainsPerL0",
+                             "error995", "error999", "errorFarthest",
+                             "height", "wallTime"]}
+    for run in done.values():
+        case = run.case
+        a, n = run.about["a"], run.about["n"]
+        last = [t for t in case.times() if case.hasCloud(t, "soil")][-1]
+        x = case.cloudField(last, "soil", "x")
+        errors = [(front(x, share) - L0)/(LAGREE*a*L0) - 1
+                  for share in (0.995, 0.999, 1)]
+        for key, value in zip(table, [
+                a, n, run.about["floor"], L0/grainSize(a), *errors,
+                surface(x, L0/n).max()/L0, run.log.wallTime]):
+            table[key].append(value)
+    if done:
+        reference.writeCsv(results/"grains.csv", table,
+                           "lengths over L0, errors relative to 2.2 a")
+    return {f"{key}_{name}": table[key][i] for i, name in enumerate(done)
+            for key in ["error995", "error999", "errorFarthest"]}
+
+
 def evaluate(done, results):
-    out = {}
+    everything = done
+    out = evaluateGrains({k: v for k, v in done.items() if "floor" in v.about},
+                         results)
+    done = {k: v for k, v in done.items() if "floor" not in v.about}
     table = {k: [] for k in ["a", "cellsPerL0", "runout", "runoutToe", "lube",
                              "lajeunesse", "errorToNearer", "outsideBoth",
                              "height",
@@ -161,12 +230,15 @@ def evaluate(done, results):
     panels[1].legend()
     panels[1].set_title(f"deposits, L0/{GRIDS[-1]}")
     style.save(fig, results/"columnCollapse.png")
-    out.update(study.provenance(done))
+    out.update(study.provenance(everything))
     reference.writeCsv(results/"columnCollapse.csv", table, "lengths over L0")
     metrics.writeMetrics(results/"metrics.json", out)
     metrics.printTable(out, "asked: |errorToNearer| <= 0.15 (0.25 at a = 0.5)")
 
 
 if __name__ == "__main__":
-    study.main(HERE, [collapse(a, n) for n in GRIDS for a in ASPECTS],
-               evaluate, __doc__)
+    RUNS = [collapse(a, n) for n in GRIDS for a in ASPECTS]
+    RUNS += [grains(a, n, floor) for floor in FLOORS
+             for a, n in [(a, GRIDS[0]) for a in ASPECTS]
+             + [(a, GRIDS[1]) for a in (0.5, 1)]]
+    study.main(HERE, RUNS, evaluate, __doc__)
