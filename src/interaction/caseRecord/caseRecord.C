@@ -191,7 +191,6 @@ void Foam::mpm::caseRecord::checkBasis(const dictionary& state) const
     is.remove("mesh");
     if (!oldMesh.empty())
     {
-        const exactDigits exact;
         const scalar tolerance = 1e-3;
         const vector h(oldMesh.get<vector>("spacing"));
         const vector h2(newMesh.get<vector>("spacing"));
@@ -207,19 +206,20 @@ void Foam::mpm::caseRecord::checkBasis(const dictionary& state) const
             moved = moved || mag(from[c]) > tolerance*h[c];
             scaled = scaled || mag(h2[c] - h[c])*n[c] > tolerance*h[c];
         }
-        if (!moved) oldRest.set("origin", newMesh.get<vector>("origin"));
-        if (!scaled) oldRest.set("spacing", h2);
+        auto takeNew = [&](const word& keyword)
+        {
+            oldRest.set(newMesh.findEntry(keyword)->clone(oldRest).ptr());
+        };
+        if (!moved) takeNew("origin");
+        if (!scaled) takeNew("spacing");
 
         // Before December 2026 a number of as many digits as writePrecision
         const token places(oldMesh.lookup("places"));
         if (places.isNumber())
         {
-            const word now(newMesh.get<word>("places"));
-            const scalar exact = std::stod(now.substr(3));
-            if (mag(places.number() - exact) <= 1e-5*exact)
-            {
-                oldRest.set("places", now);
-            }
+            const scalar exact =
+                std::stod(newMesh.get<word>("places").substr(3));
+            if (mag(places.number() - exact) <= 1e-5*exact) takeNew("places");
         }
         compare(oldRest, newRest, "mesh", changes);
 
