@@ -87,29 +87,64 @@ class soilKernelsFor
         }
     }
 
+    //- Solid fraction that the grid shows inside, at points begin .. end - 1
+    void findInside(const label begin, const label end)
+    {
+        const soilCloud& c = cloud_;
+        const label* tile = c.points_.tile();
+        work_.inside.resize(work_.speed.size());
+        for (label p = begin; p < end; ++p)
+        {
+            work_.inside[p - begin] =
+                p > begin && tile[p] == tile[p - 1]
+              ? work_.inside[p - begin - 1]
+              : kernels_.inside(c.nodes_.velocity, tile[p]);
+        }
+    }
+
+    //- |D|^2 of the shear in velocity gradient i of the chunk
+    scalar shearRateSqr(const label i) const
+    {
+        scalar trace = 0, sum = 0;
+        for (int c = 0; c < dim; ++c)
+        {
+            trace += work_.gradient[c*dim + c][i];
+            for (int d = 0; d < dim; ++d)
+            {
+                sum += sqr
+                (
+                    work_.gradient[c*dim + d][i] + work_.gradient[d*dim + c][i]
+                )/8;
+            }
+        }
+        return max(sum - trace*trace/(2*dim), scalar(0));
+    }
+
     //- Volumetric strain of the points begin .. end - 1 that their velocity
     //  gradients do not see, see soilMaterial
     void loosen(const material& m, const label begin, const label end)
     {
-        const soilCloud& c = cloud_;
-        const label* tile = c.points_.tile();
-        scalar most = 0;
         for (label p = begin; p < end; ++p)
         {
-            if (p == begin || tile[p] != tile[p - 1])
-            {
-                most = kernels_.most(c.nodes_.velocity, tile[p]);
-            }
+            const label i = p - begin;
             const scalar ratio =
-                material::overLoosening*most*(1 + m.voidRatio[p]);
+                material::overLoosening*work_.inside[i]*(1 + m.voidRatio[p]);
             if (ratio >= 1) continue;
 
+            const scalar excess = -std::log(max(ratio, SMALL));
+            const scalar slow =
+                min(m.compactionRate, std::sqrt(shearRateSqr(i)));
             const scalar rate =
-                m.compactionRate
-               *min(material::maxExcess, -std::log(max(ratio, SMALL)));
+                slow*min(material::maxExcess, excess)
+              + m.compactionRate
+               *min
+                (
+                    material::maxExcess,
+                    max(scalar(0), excess - material::maxExcess)
+                );
             for (int d = 0; d < dim; ++d)
             {
-                work_.gradient[d*dim + d][p - begin] += rate/dim;
+                work_.gradient[d*dim + d][i] += rate/dim;
             }
         }
     }
@@ -291,9 +326,18 @@ public:
             work_.resize(end - begin);
             m.begin = begin;
             view.n = end;
-            kernels_.gradientToParticle(view, begin, m, keep, c.nodes_);
-
-            if (c.settings_.looseningCorrection) loosen(m, begin, end);
+            if (c.settings_.looseningCorrection)
+            {
+                findInside(begin, end);
+                loosenedSoilMaterial<dim> loosened(m);
+                kernels_.gradientToParticle
+                    (view, begin, loosened, keep, c.nodes_);
+                loosen(m, begin, end);
+            }
+            else
+            {
+                kernels_.gradientToParticle(view, begin, m, keep, c.nodes_);
+            }
 
             soilPoints s(modelPoints(begin, end, coupling));
             c.model_->update(dim, s, deltaT);
