@@ -19,6 +19,25 @@ def plate(start, end, thickness, **entries):
         "thickness": thickness, **across}, **entries}
 
 
+def moving(body, displacement=(0, 0), degrees=0, centre=(0, 0), time=1.0):
+    """A plate that goes that far, and turns by so much, in a time, evenly"""
+    def table(x):
+        values = " ".join(f"{v:.15g}" for v in x)
+        return f"table ((0 (0 0 0)) ({time} ({values})))"
+    return {**body, "type": "prescribed", "motion": {
+        "displacement": table((*displacement, *(0,)*(3 - len(displacement)))),
+        "rotation": table((0, 0, degrees)),
+        "centre": (*centre, *(0,)*(3 - len(centre)))}}
+
+
+def placed(start, end, time, displacement=(0, 0), degrees=0, centre=(0, 0)):
+    """Start and end of its middle line then, of one that goes a second"""
+    t = np.radians(degrees*time)
+    turn = np.array([[np.cos(t), -np.sin(t)], [np.sin(t), np.cos(t)]])
+    return [np.array(centre) + np.array(displacement)*time
+            + turn @ (x - np.array(centre)) for x in [start, end]]
+
+
 def inclined(foot, degrees, length):
     """Start and end of a plate that rises from its foot"""
     t = np.radians(degrees)
@@ -81,7 +100,16 @@ def oneSidedFigures(case, thickness, start, end):
             F[len(F)//2:].mean(axis=0)/(0.5*RHO*G*LEVEL**2*h))
 
 
-def blobs(thickness, degrees, sides, soil=False, steps=100):
+def motions(degrees):
+    """Ways of a plate of blobs() in a second"""
+    t = np.radians(degrees)
+    along = np.array([np.cos(t), np.sin(t)])
+    return {"along": {"displacement": 2*along},
+            "across": {"displacement": 0.5*np.array([along[1], -along[0]])},
+            "turning": {"degrees": -120, "centre": (0.4, 0)}}
+
+
+def blobs(thickness, degrees, sides, soil=False, steps=100, motion=None):
     """Without gravity: what is on the left hits the plate, what is on the right
     touches it"""
     h = 0.02
@@ -102,10 +130,37 @@ def blobs(thickness, degrees, sides, soil=False, steps=100):
         soil={} if not soil else {
             "constitutiveModel": "linearElastic", "linearElasticCoeffs": {
                 "rhoS": 2650, "e0": 0.6, "d": 1e-3, "E": 2e5, "nu": 0.2}},
-        bodies={"plate": plate(start, end, thickness*h, **(
-            {"soil": {"frictionCoefficient": 0.5}} if soil else {}))},
+        bodies={"plate": (moving if motion else dict)(
+            plate(start, end, thickness*h, **(
+                {"soil": {"frictionCoefficient": 0.5}} if soil else {})),
+            **(motion or {}))},
+        mpm={"logInterval": 1} if motion else {},
         control={"adjustTimeStep": False, "deltaT": 4e-4},
         energy=False).steps(steps), start, end
+
+
+def gate(kind, end=0.3, h=0.02):
+    """A dam breaks as a gate is lifted, a box of 0.05 m or a plate of 2 mm, or
+    without one"""
+    face = {"box": 0.275, "plate": 0.3, "none": 0.3}[kind]
+    body = {
+        "box": {"surface": {"type": "box", "min": (face, -0.1, -1),
+                            "max": (face + 0.05, 0.36, 1)}},
+        "plate": plate((0.3, 0), (0.3, 0.36), 0.002), "none": {}}[kind]
+    return Setup(
+        cells=(round(1.2/h), round(0.6/h)), h=h, points=2,
+        origin=(face - 0.26, 0, 0),
+        regions={"reservoir": hydrostatic((0, 0), (face, 0.26))},
+        bodies={"gate": moving(body, (0, 0.6), time=0.4)} if body else {},
+        energy=False).until(end, 0.05), face
+
+
+def released(case, face):
+    """How far the front is from where the water stood [m], and what is beyond
+    0.05 m from there [m2]"""
+    p = case.points()
+    return p.x[:, 0].max() - face, (
+        (p.mass*p.J)[p.x[:, 0] > face + 0.05].sum()/RHO/case.setup.h)
 
 
 def sluice(thickness, end):

@@ -8,6 +8,7 @@ License
 #include "PstreamReduceOps.H"
 #include "bitSet.H"
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -352,50 +353,84 @@ void Foam::mpm::backgroundGrid::findTwins()
 }
 
 
-void Foam::mpm::backgroundGrid::findSeconds()
+Foam::mpm::backgroundGrid::platedRecords
+Foam::mpm::backgroundGrid::findPlated() const
 {
-    second_.clear();
-    ownView_.clear();
-    firstOf_.clear();
-    plateOf_.clear();
-    if (!plated()) return;
-
+    platedRecords found;
     const scalar far = platedReach*lattice_->minSpacing();
-    second_.setSize(nFirst(), -1);
-    ownView_.setSize(nFirst(), plate::none);
+    const scalar near = 2*lattice_->minSpacing();
+    labelList view(nFirst(), plate::none);
     labelList plateOfNode(nBoxNodes(), -1);
-    DynamicList<label> firsts;
-    for (label node = 0; node < nFirst(); ++node)
+
+    // Box coordinates around a plate, in which the nodes are that it parts
+    auto range = [&](const plate& thin, index3& first, index3& last)
     {
-        const point x(nodePosition(node));
-        for (size_t p = 0; p < plates_.size(); ++p)
+        const boundBox bounds(thin.bounds());
+        first = 0;
+        last = 0;
+        for (label d = 0; d < nDim(); ++d)
         {
-            const label view = plates_[p].viewAt(x);
-            if (view == plate::none || mag(plates_[p].height(x)) > far)
-            {
-                continue;
-            }
-            ownView_[node] = view;
-            second_[node] = nFirst() + firsts.size();
-            firsts.append(node);
-            plateOfNode[boxNode(node)] = label(p);
-            break;
+            const label axis = lattice_->axis(d);
+            const scalar from = bounds.min()[axis] - far;
+            const scalar to = bounds.max()[axis] + far;
+            first[d] = max
+                (label(0), lattice_->cellCoordinate(d, from) - lower_[d]);
+            last[d] = min
+            (
+                nNodes_[d] - 1, lattice_->cellCoordinate(d, to) - lower_[d] + 1
+            );
+            if (first[d] > last[d]) return false;
         }
+        return true;
+    };
+    auto forRange = [&]
+    (
+        const index3& first,
+        const index3& last,
+        const std::function<void(const label)>& op
+    )
+    {
+        index3 i;
+        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
+        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
+        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+        {
+            op(index(i));
+        }
+    };
+
+    for (size_t p = 0; p < plates_.size(); ++p)
+    {
+        const plate& thin = plates_[p];
+        auto part = [&](const label node)
+        {
+            if (view[node] != plate::none) return;
+            const point x(nodePosition(node));
+            const label own = thin.viewAt(x);
+            if (own == plate::none || mag(thin.height(x)) > far) return;
+            view[node] = own;
+            plateOfNode[boxNode(node)] = label(p);
+            found.nodes.emplace_back(node, own);
+        };
+        index3 first, last;
+        if (range(thin, first, last)) forRange(first, last, part);
+        for (label i = nBoxNodes(); i < nFirst(); ++i) part(i);
     }
-    firstOf_.transfer(firsts);
+    std::sort(found.nodes.begin(), found.nodes.end());
 
     // Cells that reach nodes of both sides, or are near
-    const scalar near = 2*lattice_->minSpacing();
-    plateOf_.setSize(nBoxNodes(), -1);
-    for (const label cell : boxCell_)
+    bitSet seen(nBoxNodes());
+    auto add = [&](const label cell)
     {
+        if (!ownCell(cell) || seen.test(cell)) return;
+        seen.set(cell);
         label p = -1;
         bool sides[3] = {false, false, false};
         for (label t = 0; t < reachSize(); ++t)
         {
             const label node = cell + reachOffset() + reachNode(t);
             if (plateOfNode[node] >= 0) p = plateOfNode[node];
-            sides[ownView_[node]] = true;
+            sides[view[node]] = true;
         }
         if
         (
@@ -403,9 +438,49 @@ void Foam::mpm::backgroundGrid::findSeconds()
          || (p >= 0 && mag(plates_[p].height(nodePosition(cell))) < near)
         )
         {
-            plateOf_[cell] = p;
+            found.cells.emplace_back(cell, p);
         }
+    };
+    for (const plate& thin : plates_)
+    {
+        index3 first, last;
+        if (!range(thin, first, last)) continue;
+        for (label d = 0; d < nDim(); ++d)
+        {
+            first[d] = max(label(0), first[d] - reachWidth_);
+            last[d] = min(nNodes_[d] - 1, last[d] + reachWidth_);
+        }
+        forRange(first, last, add);
     }
+    std::sort(found.cells.begin(), found.cells.end());
+    return found;
+}
+
+
+void Foam::mpm::backgroundGrid::findSeconds()
+{
+    plated_ = platedRecords();
+    second_.clear();
+    ownView_.clear();
+    firstOf_.clear();
+    plateOf_.clear();
+    if (!plated()) return;
+
+    plated_ = findPlated();
+    second_.setSize(nFirst(), -1);
+    ownView_.setSize(nFirst(), plate::none);
+    const label nFirst = this->nFirst();
+    labelList firsts(label(plated_.nodes.size()));
+    forAll(firsts, i)
+    {
+        const auto& node = plated_.nodes[i];
+        firsts[i] = node.first;
+        second_[node.first] = nFirst + i;
+        ownView_[node.first] = node.second;
+    }
+    firstOf_.transfer(firsts);
+    plateOf_.setSize(nBoxNodes(), -1);
+    for (const auto& cell : plated_.cells) plateOf_[cell.first] = cell.second;
 
     // Nor are seconds cells
     meshCell_.setSize(nNodes(), -1);
@@ -542,18 +617,31 @@ void Foam::mpm::backgroundGrid::setPlates(const std::vector<plate>& plates)
 }
 
 
-bool Foam::mpm::backgroundGrid::inMesh(const point& x) const
+bool Foam::mpm::backgroundGrid::recordsStale() const
 {
-    index3 i;
-    i = 0;
-    bool found = true;
-    for (label d = 0; d < nDim(); ++d)
+    return returnReduce(findPlated() != plated_, orOp<bool>());
+}
+
+
+Foam::boolList Foam::mpm::backgroundGrid::inMesh(const pointField& x) const
+{
+    boolList in(x.size(), false);
+    forAll(x, k)
     {
-        i[d] = lattice_->cellCoordinate(d, x[lattice_->axis(d)]) - lower_[d];
-        found = found && i[d] >= 0 && i[d] < nNodes_[d];
+        index3 i;
+        i = 0;
+        bool found = true;
+        for (label d = 0; d < nDim(); ++d)
+        {
+            i[d] =
+                lattice_->cellCoordinate(d, x[k][lattice_->axis(d)]) - lower_[d];
+            found = found && i[d] >= 0 && i[d] < nNodes_[d];
+        }
+        in[k] = found && ownCell(index(i));
     }
-    found = found && ownCell(index(i));
-    return returnReduce(found, orOp<bool>());
+    Pstream::listCombineGather(in, orEqOp<bool>());
+    Pstream::listCombineScatter(in);
+    return in;
 }
 
 
@@ -579,6 +667,7 @@ size_t Foam::mpm::backgroundGrid::memory() const
             cellRank_.size() + meshCell_.size() + boxCell_.size()
           + second_.size() + ownView_.size() + firstOf_.size()
           + plateOf_.size()
+          + 2*(plated_.nodes.size() + plated_.cells.size())
         );
 }
 

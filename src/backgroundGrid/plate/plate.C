@@ -79,14 +79,19 @@ Foam::mpm::plate::surface Foam::mpm::plate::nearest(const point& x) const
         beyond[k] = max(lower, upper);
         sign[k] = (k == 2 ? xi >= -skin() : upper >= lower) ? 1 : -1;
     }
+
+    // What is as near to an end as to a face belongs to the end: flow around it
+    // must not be held by nodes that are there for the faces. The edge itself is
+    // off both.
     label farthest = 2, n = 0;
-    vector way(Zero);
+    vector way(Zero), off(Zero);
     for (label k = 2; k >= 0; --k)
     {
-        if (beyond[k] > beyond[farthest]) farthest = k;
-        if (!(beyond[k] > 0)) continue;
+        if (beyond[k] > beyond[farthest] - skin()) farthest = k;
+        if (!(beyond[k] > -skin())) continue;
         ++n;
-        way += beyond[k]*sign[k]*axes_[k];
+        way += max(beyond[k], scalar(0))*sign[k]*axes_[k];
+        off += sign[k]*axes_[k];
     }
     if (n < 2)
     {
@@ -95,7 +100,11 @@ Foam::mpm::plate::surface Foam::mpm::plate::nearest(const point& x) const
             beyond[farthest], sign[farthest]*axes_[farthest], true
         };
     }
-    return surface{mag(way), way/mag(way), false};
+    const scalar distance = mag(way);
+    return surface
+    {
+        distance, distance > skin() ? way/distance : off/mag(off), false
+    };
 }
 
 

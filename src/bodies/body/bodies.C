@@ -100,25 +100,32 @@ void Foam::mpm::bodies::checkPlates() const
     forAll(bodies_, p)
     {
         if (!bodies_[p].thinPlate()) continue;
-        if (anyMoves_)
+        const boundBox around(bodies_[p].bounds());
+        boolList near(bodies_.size(), false);
+        forAll(bodies_, b)
         {
+            if (b == p) continue;
+            near[b] = around.overlaps(bodies_[b].bounds());
+            if (!bodies_[b].motion().moves() || bodies_[b].thinPlate()) continue;
             FatalIOErrorInFunction(bodies_[p].dict())
-                << "plate " << bodies_[p].name()
-                << " is in a scene with a body that moves." << nl
-                << "    Allowed: bodies that are fixed"
+                << "plate " << bodies_[p].name() << " is in a scene with body "
+                << bodies_[b].name() << ", which moves and is no plate." << nl
+                << "    Allowed: plates that move, other bodies that are fixed"
                 << exit(FatalIOError);
         }
+        if (!near.found(true)) continue;
         for (label i = 0; i < grid_.nBoxNodes(); ++i)
         {
             const point x(grid_.nodePosition(i));
             if (!(bodies_[p].distance(x) < far)) continue;
             forAll(bodies_, b)
             {
-                if (b == p || !(bodies_[b].distance(x) < far)) continue;
+                if (!near[b] || !(bodies_[b].distance(x) < far)) continue;
                 FatalIOErrorInFunction(bodies_[p].dict())
                     << "plate " << bodies_[p].name() << " and body "
                     << bodies_[b].name() << " are both nearer than " << far
-                    << " m to " << x << '.' << nl
+                    << " m to " << x << " at time "
+                    << grid_.mesh().time().timeName() << " s." << nl
                     << "    Allowed: " << 2*far << " m (" << 2*body::reach
                     << " cells) or more between a plate and another body"
                     << exit(FatalIOError);
@@ -140,6 +147,7 @@ Foam::mpm::bodies::bodies
 :
     grid_(grid),
     anyMoves_(false),
+    anyPlateMoves_(false),
     anyPushed_(false)
 {
     if (grid_.secondMoment() == 0)
@@ -161,6 +169,8 @@ Foam::mpm::bodies::bodies
         }
         bodies_.append(new body(e.dict(), grid_, clouds, strict));
         anyMoves_ = anyMoves_ || bodies_.last().motion().moves();
+        anyPlateMoves_ = anyPlateMoves_
+         || (bodies_.last().thinPlate() && bodies_.last().motion().moves());
         anyPushed_ = anyPushed_ || bodies_.last().motion().pushed();
     }
 }
@@ -231,6 +241,19 @@ void Foam::mpm::bodies::findVelocities(const scalar time, const scalar deltaT)
 void Foam::mpm::bodies::move(const scalar time, const scalar deltaT)
 {
     for (body& b : bodies_) b.motion().move(time, deltaT);
+    placePlates();
+}
+
+
+void Foam::mpm::bodies::placePlates()
+{
+    if (!anyPlateMoves_) return;
+
+    for (body& b : bodies_)
+    {
+        if (b.thinPlate() && b.motion().moves()) b.placePlate(grid_);
+    }
+    checkPlates();
 }
 
 
@@ -243,6 +266,7 @@ void Foam::mpm::bodies::readState(const dictionary& dict)
             b.motion().readState(subDictOf(dict, b.name()));
         }
     }
+    placePlates();
 }
 
 

@@ -34,7 +34,35 @@ void Foam::mpm::body::checkInside(const backgroundGrid& grid) const
 }
 
 
-void Foam::mpm::body::makePlate
+void Foam::mpm::body::checkCyclic(const backgroundGrid& grid) const
+{
+    // Images of the plate are not looked for
+    const lattice& cells = grid.cells();
+    const scalar h = cells.minSpacing();
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        if (!cells.periodic(d)) continue;
+        const label axis = cells.axis(d);
+        const scalar from = cells.origin(d);
+        const scalar to = from + cells.nCells(d)*cells.spacing(d);
+        const bool along = mag(plate_->normal()[axis]) < 1e-6;
+        const bool inner =
+            bounds_.min()[axis] > from + far_ && bounds_.max()[axis] < to - far_;
+        const bool whole =
+            along && bounds_.min()[axis] < from - 2*h
+         && bounds_.max()[axis] > to + 2*h;
+        if (inner || whole) continue;
+        FatalIOErrorInFunction(subDictOf(dict_, "surface"))
+            << "plate " << name_ << " goes from " << bounds_.min() << " to "
+            << bounds_.max() << ", near to a cyclic patch." << nl
+            << "    Allowed: " << far_ << " m or more away from it, or from one"
+            << " end of the cyclic direction to the other, along it"
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::mpm::body::readPlate
 (
     const backgroundGrid& grid,
     const bool strict
@@ -46,13 +74,14 @@ void Foam::mpm::body::makePlate
     wordList known({"type", "start", "end", "thickness"});
     if (is3D) known.append("across");
     checkKeywords(dict, known, strict);
-    if (motion_->moves())
+    if (motion_->pushed())
     {
         FatalIOErrorInFunction(dict_)
             << "keyword type is " << dict_.get<word>("type") << ", but body "
-            << name_ << " is a plate, which stands still." << nl
-            << "    Allowed: fixed; a box of " << 2.5*cells.minSpacing()
-            << " m (2.5 cells) or more may move" << exit(FatalIOError);
+            << name_ << " is a plate." << nl
+            << "    Allowed: fixed, prescribed; a box of "
+            << 2.5*cells.minSpacing() << " m (2.5 cells) or more may be rigid"
+            << exit(FatalIOError);
     }
 
     point start(dict.get<point>("start"));
@@ -89,7 +118,7 @@ void Foam::mpm::body::makePlate
             << " m, a cell, at a right angle to the middle line"
             << exit(FatalIOError);
     }
-    plate_.reset
+    given_.reset
     (
         new plate
         (
@@ -97,55 +126,11 @@ void Foam::mpm::body::makePlate
             !is3D
         )
     );
-    bounds_ = plate_->bounds();
-    checkInside(grid);
-
-    // Behind walls it goes on as far as nodes are in reach
-    const label nEdges = is3D ? 4 : 2;
-    const scalar step = 0.25*h;
-    for (label edge = 0; edge < nEdges; ++edge)
-    {
-        scalar length = 0;
-        bool outside = true;
-        while (outside && length < 2*reach*h)
-        {
-            const pointField beyond
-            (
-                plate_->edge(edge, length > 0 ? length : 1e-3*h, step)
-            );
-            for (const point& x : beyond)
-            {
-                if (!outside) break;
-                outside = !grid.inMesh(x);
-            }
-            if (outside) length += step;
-        }
-        if (length > step) plate_->extend(edge, length - step);
-    }
-    bounds_ = plate_->bounds();
     far_ = (reach + 1)*h;
-
-    // Images of the plate are not looked for
-    for (label d = 0; d < cells.nDim(); ++d)
-    {
-        if (!cells.periodic(d)) continue;
-        const label axis = cells.axis(d);
-        const scalar from = cells.origin(d);
-        const scalar to = from + cells.nCells(d)*cells.spacing(d);
-        const bool along = mag(plate_->normal()[axis]) < 1e-6;
-        const bool inner =
-            bounds_.min()[axis] > from + far_ && bounds_.max()[axis] < to - far_;
-        const bool whole =
-            along && bounds_.min()[axis] < from - 2*h
-         && bounds_.max()[axis] > to + 2*h;
-        if (inner || whole) continue;
-        FatalIOErrorInFunction(dict)
-            << "plate " << name_ << " goes from " << bounds_.min() << " to "
-            << bounds_.max() << ", near to a cyclic patch." << nl
-            << "    Allowed: " << far_ << " m or more away from it, or from one"
-            << " end of the cyclic direction to the other, along it"
-            << exit(FatalIOError);
-    }
+    bounds_ = given_->bounds();
+    if (!motion_->moves()) checkInside(grid);
+    motion_->start(grid.mesh().time().value());
+    placePlate(grid);
 }
 
 
@@ -240,13 +225,54 @@ Foam::mpm::body::body
     const dictionary surface(subDictOrEmpty(dict_, "surface"));
     if (surface.lookupOrDefault<word>("type", word::null) == "plate")
     {
-        makePlate(grid, strict);
+        readPlate(grid, strict);
     }
     else sample(grid, strict);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::body::placePlate(const backgroundGrid& grid)
+{
+    const scalar h = grid.cells().minSpacing();
+    const bool moves = motion_->moves();
+    plate_.reset
+    (
+        moves
+      ? new plate
+        (
+            given_->moved
+            (
+                [&](const point& X) { return motion_->fromSurface(X); },
+                motion_->rotation()
+            )
+        )
+      : new plate(*given_)
+    );
+
+    // Behind walls it goes on as far as nodes are in reach: from the first place
+    // that tells
+    const label nEdges = grid.nDim() == 3 ? 4 : 2;
+    const scalar step = 0.25*h;
+    const scalar nearest = (moves ? 0.5 : 1e-3)*h;
+    const label nSteps = 8*reach;
+    for (label edge = 0; edge < nEdges; ++edge)
+    {
+        DynamicList<point> places;
+        for (label i = 0; i < nSteps; ++i)
+        {
+            places.append(plate_->edge(edge, max(i*step, nearest), step));
+        }
+        const label first = grid.inMesh(pointField(places)).find(true);
+        const label nOutside =
+            first < 0 ? nSteps : first/(places.size()/nSteps);
+        if (nOutside > 1) plate_->extend(edge, (nOutside - 1)*step);
+    }
+    bounds_ = plate_->bounds();
+    checkCyclic(grid);
+}
+
 
 Foam::dictionary Foam::mpm::body::wallOf(const word& cloud) const
 {

@@ -198,6 +198,7 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
             const vector g(bodies_[n.body].gradient(n.x, h));
             n.smooth = magSqr(g) > 0.94;
             n.faced = true;
+            n.view = plate::none;
 
             // In the middle of a body there is no nearest point of the surface
             const vector fine(bodies_[n.body].gradient(n.x, 0.5*h));
@@ -207,6 +208,7 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
         else
         {
             n.smooth = thin->smooth(n.x, h);
+            n.view = thin->viewAt(n.x);
             if (id_[k] < nIds())
             {
                 const plate::surface near(thin->nearest(n.x));
@@ -217,8 +219,8 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
             {
                 // Behind the face of the other side
                 n.phi = -mag(thin->height(n.x)) - 0.5*thin->thickness();
-                n.n = (thin->viewAt(n.x) == plate::front ? -1 : 1)
-                   *thin->normal();
+                n.n = (n.view == plate::front ? -1 : 1)*thin->normal();
+                n.view = plate::front + plate::back - n.view;
                 n.faced = true;
             }
         }
@@ -308,6 +310,77 @@ public:
         return x;
     }
 
+    //- Moments by node in reach of volumes by part: direction by direction
+    void findMoments
+    (
+        const std::vector<scalar>& volume,
+        std::vector<moments>& m
+    ) const
+    {
+        const label T = grid_.reachWidth();
+        const label nz = grid_.nDim() == 3 ? n_ : 1;
+
+        // Along x: by power of the coordinate, node, and row of parts
+        scalar ofRow[3][4], ofLayer[6][16];
+        std::fill(m.begin(), m.end(), moments());
+        for (label k = 0; k < nz; ++k)
+        {
+            // Powers along x and y: 00, 10, 20, 01, 11, 02
+            std::fill(&ofLayer[0][0], &ofLayer[0][0] + 6*16, scalar(0));
+            for (label j = 0; j < n_; ++j)
+            {
+                std::fill(&ofRow[0][0], &ofRow[0][0] + 3*4, scalar(0));
+                bool any = false;
+                for (label i = 0; i < n_; ++i)
+                {
+                    scalar v = volume[i + n_*(j + n_*k)];
+                    if (!(v > 0)) continue;
+                    any = true;
+                    const scalar x = (i + 0.5)/n_;
+                    for (label power = 0; power < 3; ++power, v *= x)
+                    {
+                        for (label t = 0; t < T; ++t)
+                        {
+                            ofRow[power][t] += v*w_[i].of[t];
+                        }
+                    }
+                }
+                if (!any) continue;
+                const scalar y = (j + 0.5)/n_;
+                for (label u = 0; u < T; ++u)
+                for (label t = 0; t < T; ++t)
+                {
+                    const scalar w = w_[j].of[u];
+                    const label at = t + T*u;
+                    ofLayer[0][at] += w*ofRow[0][t];
+                    ofLayer[1][at] += w*ofRow[1][t];
+                    ofLayer[2][at] += w*ofRow[2][t];
+                    ofLayer[3][at] += w*y*ofRow[0][t];
+                    ofLayer[4][at] += w*y*ofRow[1][t];
+                    ofLayer[5][at] += w*y*y*ofRow[0][t];
+                }
+            }
+            const bool is3D = nz > 1;
+            const scalar z = is3D ? (k + 0.5)/n_ : 0;
+            for (size_t t = 0; t < m.size(); ++t)
+            {
+                const label at = label(t) % (T*T);
+                const scalar w = is3D ? w_[k].of[label(t)/(T*T)] : 1;
+                const scalar V = w*ofLayer[0][at];
+                const scalar x = w*ofLayer[1][at], y = w*ofLayer[3][at];
+                const scalar xy = w*ofLayer[4][at];
+                m[t].V += V;
+                m[t].first += vector(x, y, z*V);
+                m[t].second += tensor
+                (
+                    w*ofLayer[2][at], xy, z*x,
+                    xy, w*ofLayer[5][at], z*y,
+                    z*x, z*y, z*z*V
+                );
+            }
+        }
+    }
+
     //- Add a volume in a part, by node in reach
     void add
     (
@@ -383,33 +456,10 @@ void Foam::mpm::bodyNodes::addFolded
 }
 
 
-void Foam::mpm::bodyNodes::integratePlate
-(
-    const body& b,
-    const nodeFolding& folding,
-    std::vector<scalar>& sums
-) const
+template<class Op>
+void Foam::mpm::bodyNodes::forCells(const body& b, const Op& op) const
 {
     const lattice& cells = grid_.cells();
-    const label nDim = cells.nDim();
-    const label size = grid_.reachSize();
-    const scalar h = cells.minSpacing();
-    const plate& thin = *b.thinPlate();
-
-    const label nSub = nDim == 3 ? 8 : 16;
-    const dividedCell divided(grid_, nSub);
-    const scalar dV = cells.cellVolume()/divided.size();
-    std::vector<moments> full(size);
-    for (label sub = 0; sub < divided.size(); ++sub)
-    {
-        divided.add(full, sub, dV);
-    }
-
-    // What is of each view, and last of the plate itself
-    constexpr label inPlate = 3;
-    const std::vector<moments> zero(size);
-    std::vector<moments> of[4];
-
     index3 first, last, i;
     if (!range(b, first, last)) return;
     for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
@@ -421,112 +471,44 @@ void Foam::mpm::bodyNodes::integratePlate
 
         const point corner(grid_.nodePosition(cell));
         point middle(corner);
-        for (label d = 0; d < nDim; ++d)
+        for (label d = 0; d < cells.nDim(); ++d)
         {
             middle[cells.axis(d)] += 0.5*cells.spacing(d);
         }
-
-        // Wholly of one of them, or divided
-        const FixedList<scalar, 4> whole
-        (
-            thin.parts(middle, std::sqrt(scalar(nDim))*h + h/nSub)
-        );
-        bool cut = true;
-        for (label part = 0; part < 4; ++part)
-        {
-            cut = cut && whole[part] < 1;
-            of[part] = whole[part] < 1 ? zero : full;
-        }
-        for (label sub = 0; cut && sub < divided.size(); ++sub)
-        {
-            const FixedList<scalar, 4> parts
-            (
-                thin.parts(divided.position(corner, sub), h/nSub)
-            );
-            for (label part = 0; part < 4; ++part)
-            {
-                if (parts[part] > 0) divided.add(of[part], sub, parts[part]*dV);
-            }
-        }
-
-        const label s = folding.stencil(cell);
-        for (label t = 0; t < size; ++t)
-        {
-            const label node =
-                s < 0
-              ? cell + grid_.reachOffset() + grid_.reachNode(t)
-              : folding.targets(s)[t];
-            auto addUnseen = [&](const label record)
-            {
-                const label k = record < 0 ? -1 : numberOf_[record];
-                if (k < 0) return;
-                const label view = grid_.viewOf(record);
-                const bool own = record == node;
-                moments unseen(of[inPlate][t]);
-                for (const label other : {plate::front, plate::back})
-                {
-                    if (view == plate::none || view == other) continue;
-                    unseen += of[other][t];
-                }
-                if (!own) unseen += of[plate::none][t];
-                if (unseen.V > 0)
-                {
-                    addFolded(cell, t, k, unseen, folding, sums);
-                }
-            };
-            addUnseen(node);
-            addUnseen(grid_.second(node));
-        }
+        op(cell, corner, middle);
     }
 }
 
 
-void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
+void Foam::mpm::bodyNodes::integrateClosed
+(
+    const body& b,
+    const nodeFolding& folding,
+    std::vector<scalar>& sums
+)
 {
     const lattice& cells = grid_.cells();
-    const label nDim = cells.nDim();
     const label size = grid_.reachSize();
     const scalar h = cells.minSpacing();
+    const scalar diagonal = 0.5*std::sqrt(scalar(cells.nDim()))*h;
 
     constexpr label nSub = 4;
     const dividedCell divided(grid_, nSub);
     const label nSubs = divided.size();
     const scalar dV = cells.cellVolume()/nSubs;
-    const scalar diagonal = 0.5*std::sqrt(scalar(nDim))*h;
-
-    std::vector<moments> full(size);
+    std::vector<moments> full(size), cut(size);
     for (label sub = 0; sub < nSubs; ++sub) divided.add(full, sub, dV);
 
-    std::vector<scalar> sums(nodes_.size()*16, 0);
-    nearCells_.reset();
-    nearCells_.resize(grid_.nBoxNodes());
-    std::vector<moments> cut(size);
-
-    for (label b = 0; b < bodies_.size(); ++b)
-    {
-        index3 first, last, i;
-        if (!range(bodies_[b], first, last)) continue;
-        const bool thin = bodies_[b].thinPlate();
-        if (thin) integratePlate(bodies_[b], folding, sums);
-        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
-        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
-        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+    forCells
+    (
+        b,
+        [&](const label cell, const point& corner, const point& middle)
         {
-            const label cell = grid_.index(i);
-            if (!grid_.ownCell(cell)) continue;
-
-            const point corner(grid_.nodePosition(cell));
-            point middle(corner);
-            for (label d = 0; d < nDim; ++d)
-            {
-                middle[cells.axis(d)] += 0.5*cells.spacing(d);
-            }
-            const scalar phi = bodies_[b].distance(middle);
+            const scalar phi = b.distance(middle);
             if (phi < h + diagonal) nearCells_.set(cell);
-            if (thin) continue;
 
             // The samples end somewhere in the middle of nowhere
-            if (!(phi < diagonal + h/nSub)) continue;
+            if (!(phi < diagonal + h/nSub)) return;
             const moments* m = full.data();
             if (!(phi < -diagonal - h/nSub))
             {
@@ -537,11 +519,7 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
                     const scalar part = min
                     (
                         scalar(1),
-                        max
-                        (
-                            scalar(0),
-                            0.5 - nSub*bodies_[b].distance(x)/h
-                        )
+                        max(scalar(0), 0.5 - nSub*b.distance(x)/h)
                     );
                     if (part > 0) divided.add(cut, sub, part*dV);
                 }
@@ -560,6 +538,123 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
                 if (k >= 0) addFolded(cell, t, k, m[t], folding, sums);
             }
         }
+    );
+}
+
+
+void Foam::mpm::bodyNodes::integratePlate
+(
+    const body& b,
+    const nodeFolding& folding,
+    std::vector<scalar>& sums
+)
+{
+    const lattice& cells = grid_.cells();
+    const label nDim = cells.nDim();
+    const label size = grid_.reachSize();
+    const scalar h = cells.minSpacing();
+    const scalar diagonal = 0.5*std::sqrt(scalar(nDim))*h;
+    const plate& thin = *b.thinPlate();
+
+    // Coarser where that has to be done in each step
+    const label nSub = (nDim == 3 ? 8 : 16)/(b.motion().moves() ? 2 : 1);
+    const dividedCell divided(grid_, nSub);
+    const scalar dV = cells.cellVolume()/divided.size();
+
+    // What is of each view, and last of the plate itself
+    constexpr label inPlate = 3;
+    const std::vector<moments> zero(size);
+    std::vector<moments> full(size);
+    std::vector<moments> of[4];
+    std::vector<scalar> volume[4];
+    for (std::vector<scalar>& v : volume) v.assign(divided.size(), dV);
+    divided.findMoments(volume[0], full);
+
+    forCells
+    (
+        b,
+        [&](const label cell, const point& corner, const point& middle)
+        {
+            if (grid_.plateOf(cell) >= 0 || b.distance(middle) < h + diagonal)
+            {
+                nearCells_.set(cell);
+            }
+
+            // Wholly of one of them, or divided
+            const FixedList<scalar, 4> whole
+            (
+                thin.parts(middle, 2*diagonal + h/nSub)
+            );
+            bool cut = true;
+            for (label part = 0; part < 4; ++part)
+            {
+                cut = cut && whole[part] < 1;
+                of[part] = whole[part] < 1 ? zero : full;
+            }
+            if (cut)
+            {
+                bool any[4] = {false, false, false, false};
+                for (label sub = 0; sub < divided.size(); ++sub)
+                {
+                    const FixedList<scalar, 4> parts
+                    (
+                        thin.parts(divided.position(corner, sub), h/nSub)
+                    );
+                    for (label part = 0; part < 4; ++part)
+                    {
+                        volume[part][sub] = parts[part]*dV;
+                        any[part] = any[part] || parts[part] > 0;
+                    }
+                }
+                for (label part = 0; part < 4; ++part)
+                {
+                    if (any[part]) divided.findMoments(volume[part], of[part]);
+                }
+            }
+
+            const label s = folding.stencil(cell);
+            for (label t = 0; t < size; ++t)
+            {
+                const label node =
+                    s < 0
+                  ? cell + grid_.reachOffset() + grid_.reachNode(t)
+                  : folding.targets(s)[t];
+                auto addUnseen = [&](const label record)
+                {
+                    const label k = record < 0 ? -1 : numberOf_[record];
+                    if (k < 0) return;
+                    const label view = grid_.viewOf(record);
+                    const bool own = record == node;
+                    moments unseen(of[inPlate][t]);
+                    for (const label other : {plate::front, plate::back})
+                    {
+                        if (view == plate::none || view == other) continue;
+                        unseen += of[other][t];
+                    }
+                    if (!own) unseen += of[plate::none][t];
+                    if (unseen.V > 0)
+                    {
+                        addFolded(cell, t, k, unseen, folding, sums);
+                    }
+                };
+                addUnseen(node);
+                addUnseen(grid_.second(node));
+            }
+        }
+    );
+}
+
+
+void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
+{
+    std::vector<scalar> sums(nodes_.size()*16, 0);
+    nearCells_.reset();
+    nearCells_.resize(grid_.nBoxNodes());
+    for (label i = 0; i < bodies_.size(); ++i)
+    {
+        const body& b = bodies_[i];
+        if (b.thinPlate()) integratePlate(b, folding, sums);
+        else integrateClosed(b, folding, sums);
     }
     sum(sums);
     for (size_t k = 0; k < nodes_.size(); ++k)
@@ -586,8 +681,7 @@ void Foam::mpm::bodyNodes::findNeighbours()
 
         // What it sees beside a plate: its own side
         const plate* thin = plateAt(number);
-        label view = thin ? thin->viewAt(nodes_[number].x) : plate::none;
-        if (id >= nIds()) view = plate::front + plate::back - view;
+        const label view = nodes_[number].view;
         for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
         for (label j = -1; j <= 1; ++j)
         for (label i = -1; i <= 1; ++i)

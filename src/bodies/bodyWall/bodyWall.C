@@ -211,6 +211,10 @@ Foam::vector Foam::mpm::bodyWall::partOfBody
     const vector& angularVelocity
 ) const
 {
+    if (velocity == vector::zero && angularVelocity == vector::zero)
+    {
+        return Zero;
+    }
     const bodyNodes::node& node = nodes_[s.number];
     const point& centre = bodies_[node.body].motion().centre();
     auto at = [&](const point& x)
@@ -298,17 +302,19 @@ void Foam::mpm::bodyWall::solve
     }
     for (size_t i = 0; i < slaves_.size(); ++i)
     {
+        // No point reads what has no mass
         const slave& s = slaves_[i];
         const bodyNodes::node& node = nodes_[s.number];
+        fromBody_[i] = fromBody[i];
+        if (!(mass_[s.number] > 0)) continue;
         vector v(fromBody[i] + fromMasters(s, velocity_));
-        if (s.own > 0 && mass_[s.number] > 0)
+        if (s.own > 0)
         {
             ownVelocity_[s.number] += change[s.number]/mass_[s.number];
             const vector& own = ownVelocity_[s.number];
             v += s.own*(own - (node.n & own)*node.n);
         }
         velocity_[s.number] = product(node.free, v) + node.given;
-        fromBody_[i] = fromBody[i];
     }
     nodes_.scatter(velocity_, nodes.velocity);
 
@@ -392,7 +398,8 @@ void Foam::mpm::bodyWall::addSaturation
     // Active nodes are found anew in each step
     for (const label i : filled_)
     {
-        if (!active.test(i)) saturation[i] = 0;
+        // Second records may have become fewer; they are always active
+        if (i < label(saturation.size()) && !active.test(i)) saturation[i] = 0;
     }
     filled_.clear();
     for (const bodyNodes::local& l : nodes_.locals())
@@ -428,6 +435,11 @@ void Foam::mpm::bodyWall::press
     auto m = [&](const label k) { return values[4*size_t(k) + 2]; };
 
     const lattice& cells = grid_.cells();
+    bool cyclic = false;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        cyclic = cyclic || cells.periodic(d);
+    }
     wallForce_.assign(nodes_.size(), Zero);
     for (label k = 0; k < nodes_.size(); ++k)
     {
@@ -454,7 +466,7 @@ void Foam::mpm::bodyWall::press
             const label neighbour = nodes_.neighbours(k)[j];
             if (neighbour < 0 || !(m(neighbour) > 0)) continue;
             vector dx(nodes_[neighbour].x - node.x);
-            for (label d = 0; d < cells.nDim(); ++d)
+            for (label d = 0; cyclic && d < cells.nDim(); ++d)
             {
                 if (!cells.periodic(d)) continue;
                 const label axis = cells.axis(d);
@@ -553,6 +565,10 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
     {
         const scalar m = mass_[s.number];
         if (!(m > 0)) continue;
+        const scalar square = sqr(s.r);
+        const vector& n = nodes_[s.number].n;
+        const tensor normal(s.noSlip ? tensor(I) : n*n);
+        const tensor across(factor(s, 0));
         for (label j = s.first; j < s.last; ++j)
         {
             const bodyNodes::source& from = sources_[j];
@@ -561,9 +577,10 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
             (
                 scalar(0), 1 - mass_[from.node]/(thin*cell)
             );
-            const scalar rr = sqr(s.r) + (1 - sqr(s.r))*missing;
-            mass[from.node] += from.weight*m*withSigns
-                (factor(s, sqr(s.r) < 1 ? rr : sqr(s.r)), from.sign);
+            const scalar rr =
+                square < 1 ? square + (1 - square)*missing : square;
+            mass[from.node] +=
+                from.weight*m*withSigns(rr*normal + across, from.sign);
         }
     }
     for (const label k : masters_)

@@ -183,8 +183,9 @@ Foam::scalar Foam::mpm::gridVolume::sum() const
     const nodeField<scalar> S(saturation());
     const nodeField<scalar> in(inside(S));
 
+    // Those behind, of thin plates, have no volume of their own
     scalar total = 0;
-    for (size_t i = 0; i < S.size(); ++i)
+    for (label i = 0; i < grid_.nFirst(); ++i)
     {
         total += ownVolume_[i]*(in[i] > 0 ? 1 : S[i]);
     }

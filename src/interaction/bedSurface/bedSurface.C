@@ -226,6 +226,28 @@ Foam::scalar Foam::mpm::bedSurface::areaOf(const label node) const
 }
 
 
+bool Foam::mpm::bedSurface::readSurface
+(
+    const label node,
+    scalar& area,
+    scalar& thickness,
+    nodeVector& normal
+)
+{
+    if (!(perCopy_[node] > 0)) return false;
+    area = areaOf(node);
+    if (!(area > 0))
+    {
+        area_[node] = force_[node] = nodeVector{};
+        return false;
+    }
+    thickness = force_[node][3]/area;
+    normal = area_[node]*(1/area);
+    for (label d = grid_.nDim(); d < 4; ++d) normal[d] = 0;
+    return true;
+}
+
+
 void Foam::mpm::bedSurface::setNormal
 (
     const label node,
@@ -246,17 +268,10 @@ void Foam::mpm::bedSurface::findLocalStress()
     (
         [&](const label i)
         {
-            if (!(perCopy_[i] > 0)) return;
-            const scalar area = areaOf(i);
-            if (!(area > 0))
-            {
-                area_[i] = force_[i] = nodeVector{};
-                return;
-            }
+            scalar area, thickness;
+            nodeVector normal;
+            if (!readSurface(i, area, thickness, normal)) return;
             const scalar known = area_[i][3];
-            const scalar thickness = force_[i][3]/area;
-            nodeVector normal = area_[i]*(1/area);
-            for (label d = dim; d < 4; ++d) normal[d] = 0;
 
             nodeVector stress{};
             if (known > 0)
@@ -353,13 +368,10 @@ void Foam::mpm::bedSurface::shareOutDrag(const scalar density)
     (
         [&](const label i)
         {
-            if (!(perCopy_[i] > 0)) return;
-            const scalar area = areaOf(i);
-            if (!(area > 0))
-            {
-                area_[i] = force_[i] = nodeVector{};
-                return;
-            }
+            scalar area, thickness;
+            nodeVector normal;
+            if (!readSurface(i, area, thickness, normal)) return;
+
             // Less what would push the pore water through a bed at rest
             if (push_[i][3] > 0)
             {
@@ -369,13 +381,9 @@ void Foam::mpm::bedSurface::shareOutDrag(const scalar density)
                     force_[i][d] -= part*push_[i][d];
                 }
             }
-            nodeVector normal = area_[i]*(1/area);
-            for (label d = dim; d < 4; ++d) normal[d] = 0;
-
             scalar into = 0;
             for (label d = 0; d < dim; ++d) into += force_[i][d]*normal[d];
             nodeVector stress = (force_[i] - into*normal)*(1/area);
-            const scalar thickness = force_[i][3]/area;
 
             // Along the bed, to the power of the resistance
             nodeVector flow{};

@@ -1041,7 +1041,8 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
     if (bodiesMoved_)
     {
         cost_.start("bodies: geometry");
-        for (materialPointCloud& cloud : clouds_) cloud.placeBodies();
+        if (bodies_->anyPlateMoves() && grid_.recordsStale()) rebuild();
+        else for (materialPointCloud& cloud : clouds_) cloud.placeBodies();
         cost_.stop();
         bodiesMoved_ = false;
     }
@@ -1087,6 +1088,7 @@ void Foam::mpm::materialPointSystem::gridToParticles()
     if (bodies_.valid() && bodies_->anyMoves())
     {
         bodies_->move(time_.value(), deltaT);
+        if (bodies_->anyPlateMoves()) grid_.setPlates(bodies_->plates());
         bodiesMoved_ = true;
     }
 }

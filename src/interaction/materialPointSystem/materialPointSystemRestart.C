@@ -299,6 +299,11 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
     if (bodies_.valid() && firstStep_ > 0)
     {
         bodies_->readState(state.subDict("bodies"));
+        if (bodies_->anyPlateMoves())
+        {
+            grid_.setPlates(bodies_->plates());
+            rebuild();
+        }
     }
     bodiesMoved_ = bodies_.valid();
     for (const materialPointCloud& cloud : clouds_) cloud.checkDigits();

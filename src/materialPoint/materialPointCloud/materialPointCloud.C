@@ -179,7 +179,11 @@ void Foam::mpm::materialPointCloud::activate(const bool sort)
     }
     order_.activate(all);
     boundary_.activate(order_.nodes());
-    if (sort) order_.sort(points_);
+    if (sort)
+    {
+        order_.sort(points_);
+        nearGroup_.clear();
+    }
 }
 
 
@@ -233,24 +237,29 @@ void Foam::mpm::materialPointCloud::setCell
 }
 
 
+inline void Foam::mpm::materialPointCloud::findView(const label p)
+{
+    const label cell = points_.cell()[p];
+    if (grid_.plateOf(cell) < 0) return;
+
+    // Else it is still in the tile that it had
+    const nodeTiles& tiles = boundary_.tiles();
+    const label view = grid_.view(cell, position(p));
+    if (view == tiles.viewOf(points_.tile()[p])) return;
+    points_.tile()[p] =
+        tiles.of(cell, partOf(p, grid_.coordinate(cell)), view);
+}
+
+
 void Foam::mpm::materialPointCloud::findViews()
 {
-    if (!grid_.plated()) return;
+    for (label p = 0; grid_.plated() && p < size(); ++p) findView(p);
+}
 
-    const nodeTiles& tiles = boundary_.tiles();
-    const label* cell = points_.cell();
-    for (label p = 0; p < size(); ++p)
-    {
-        if (grid_.plateOf(cell[p]) < 0) continue;
 
-        // Else it is still in the tile that it had
-        const label view = grid_.view(cell[p], position(p));
-        if (view == tiles.viewOf(points_.tile()[p])) continue;
-        points_.tile()[p] = tiles.of
-        (
-            cell[p], partOf(p, grid_.coordinate(cell[p])), view
-        );
-    }
+void Foam::mpm::materialPointCloud::updateViews()
+{
+    if (grid_.plated()) forNearGroups([&](const label p) { findView(p); });
 }
 
 
@@ -557,6 +566,7 @@ void Foam::mpm::materialPointCloud::rebuild()
     {
         if (c != this && c->open_.valid()) c->open_->rebuild(g_);
         c->makeKernels();
+        c->nearGroup_.clear();
         for (label p = 0; p < c->size(); ++p)
         {
             c->setCell(p, c->boxCoordinate(p));

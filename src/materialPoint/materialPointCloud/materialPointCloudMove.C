@@ -15,18 +15,42 @@ Description
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
-bool Foam::mpm::materialPointCloud::passed
-(
-    const label p,
-    const point& at
-) const
+void Foam::mpm::materialPointCloud::findNearGroups()
 {
-    // Its tile and cell are still those from which it comes
-    const label i = grid_.plateOf(points_.cell()[p]);
-    return
-        i >= 0
-     && grid_.plates()[i].passed
-        (at, boundary_.tiles().viewOf(points_.tile()[p]));
+    const bitSet& nearCells = leader().nearBodies();
+    const label* cell = points_.cell();
+    nearGroup_.assign(size()/groupSize + 1, 0);
+    for (label p = 0; p < size(); ++p)
+    {
+        if (nearCells.test(cell[p])) nearGroup_[p/groupSize] = 1;
+    }
+}
+
+
+void Foam::mpm::materialPointCloud::findNearGroups
+(
+    const std::vector<label>& points
+)
+{
+    const bitSet& nearCells = leader().nearBodies();
+    const label* cell = points_.cell();
+    for (const label p : points)
+    {
+        if (nearCells.test(cell[p])) nearGroup_[p/groupSize] = 1;
+    }
+}
+
+
+template<class Op>
+void Foam::mpm::materialPointCloud::forNearGroups(const Op& op)
+{
+    for (size_t group = 0; group < nearGroup_.size(); ++group)
+    {
+        if (!nearGroup_[group]) continue;
+        const label first = groupSize*label(group);
+        const label last = min(first + groupSize, size());
+        for (label p = first; p < last; ++p) op(p);
+    }
 }
 
 
@@ -34,28 +58,36 @@ void Foam::mpm::materialPointCloud::putOutOfBodies()
 {
     const bitSet& nearCells = leader().nearBodies();
     const lattice& cells = grid_.cells();
+    const nodeTiles& tiles = boundary_.tiles();
     const label nDim = grid_.nDim();
     const scalar h = cells.minSpacing();
     const label* cell = points_.cell();
     const size_t nMovers = movers_.size();
 
-    for (label p = 0; p < size(); ++p)
+    if (nearGroup_.empty()) findNearGroups();
+    auto putOut = [&](const label p)
     {
-        if (!nearCells.test(cell[p])) continue;
+        if (!nearCells.test(cell[p])) return;
         point at(position(p));
-        if (passed(p, at))
+
+        // Beside a plate the side is that from which it comes: its tile and cell
+        // are still those of the step
+        const label thin = grid_.plateOf(cell[p]);
+        const label view =
+            thin < 0 ? label(plate::none) : tiles.viewOf(points_.tile()[p]);
+        if (view != plate::none && grid_.plates()[thin].inSpan(at))
         {
-            at = grid_.plates()[grid_.plateOf(cell[p])].returned
-                (at, boundary_.tiles().viewOf(points_.tile()[p]), 1e-6*h);
+            if (!grid_.plates()[thin].passed(at, view)) return;
+            at = grid_.plates()[thin].returned(at, view, 1e-6*h);
         }
         else
         {
             scalar phi;
             const label b = bodies_->nearest(at, phi);
-            if (!(phi < 0)) continue;
+            if (!(phi < 0)) return;
 
             const vector g((*bodies_)[b].gradient(at, 0.5*h));
-            if (!(mag(g) > SMALL)) continue;
+            if (!(mag(g) > SMALL)) return;
             at += (1e-6*h - phi)*g/mag(g);
         }
         for (label d = 0; d < nDim; ++d)
@@ -64,7 +96,8 @@ void Foam::mpm::materialPointCloud::putOutOfBodies()
         }
         movers_.push_back(p);
         ++putOut_;
-    }
+    };
+    forNearGroups(putOut);
 
     // In the order of the points, each once
     if (movers_.size() > nMovers)
@@ -413,13 +446,19 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     if (bodies_)
     {
         cost_.start("bodies: points put out");
+
+        // What is near follows the bodies
+        if (bodies_->anyMoves()) nearGroup_.clear();
         putOutOfBodies();
     }
     cost_.start("relocate and sort");
 
     std::vector<departure> departures;
     bool inactive = false;
+    std::vector<label> moved;
+    if (bodies_) moved = movers_;
     findDepartures(deltaT, departures, inactive);
+    const label nPoints = size();
     migrate(departures, inactive);
 
     if (open_.valid())
@@ -430,7 +469,16 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
     }
     else if (extremeLeft_) findExtremes();
     extremeLeft_ = false;
-    findViews();
+    if (bodies_)
+    {
+        // Points that leave give their places to others
+        if (departures.size() || size() != nPoints || open_.valid())
+        {
+            findNearGroups();
+        }
+        else findNearGroups(moved);
+        updateViews();
+    }
 
     ++stepCount_;
     const bool sort = stepCount_ % settings_.sortInterval == 0;
