@@ -175,3 +175,79 @@ def binghamSlope(cells=8, yields=True, water=None):
         regions={"layer": hydrostatic((0, 0), (10, H))},
         control=ASCII).cyclic("x")
     return setup, exact, 4*H**2/(mu/RHO) if yields else 0.3
+
+
+# Cmu, C1, C2, sigmak, sigmaEps
+COEFFICIENTS = {"kEpsilon": (0.09, 1.44, 1.92, 1.0, 1.3),
+                "realizableKE": (0.09, 0, 1.9, 1.0, 1.2)}
+
+
+class MixingLayer:
+    """Two streams of -U/2 and U/2 side by side, endless, the layer between
+    them 4 cells thick at the start, and what the model of turbulence makes of
+    it in one dimension, on a grid of twice as many cells"""
+    h, rows, U, nu = 0.0125, 64, 1.0, 2e-5
+
+    def __init__(self, turbulence, k=1e-3, epsilon=5e-4, columns=4, **entries):
+        self.turbulence, self.k, self.epsilon = turbulence, k, epsilon
+        self.height = self.rows*self.h
+        self.setup = Setup(
+            cells=(columns, self.rows), h=self.h, points=2, g=(0, 0, 0),
+            energy=False, fluid={"soundSpeed": 10*self.U, "mu": self.nu*RHO},
+            water={"turbulence": turbulence, "transfer": "XAPIC",
+                   turbulence + "Coeffs": {"k": k, "epsilon": epsilon}},
+            regions={"all": box((0, 0), (10, self.height))},
+            control=ASCII, **entries).cyclic("x")
+
+    def profile(self, y):
+        return self.U/2*np.tanh((y - self.height/2)/(2*self.h))
+
+    def run(self, path, end):
+        case = self.setup.until(end).write(path).prepare()
+        x = case.case.cloudField("0", "water", "x")
+        U = np.zeros_like(x)
+        U[:, 0] = self.profile(x[:, 1])
+        setField(case, "U", U)
+        case.solve()
+        return case
+
+    def thickness(self, y, u, weight):
+        """U over the largest slope of the means of the rows"""
+        row = (y/self.h).astype(int)
+        mean = (np.bincount(row, weight*u, self.rows)
+                / np.bincount(row, weight, self.rows))
+        return self.U/np.gradient(mean, self.h).max()
+
+    def theory(self, end):
+        """Height, velocity, k at the end; explicit"""
+        Cmu, C1, C2, sigmak, sigmaEps = COEFFICIENTS[self.turbulence]
+        n = 2*self.rows
+        dy = self.height/n
+        y = (np.arange(n) + 0.5)*dy
+        u, k, e = (self.profile(y), np.full(n, self.k),
+                   np.full(n, self.epsilon))
+        steps = round(end/5e-4)
+        dt = end/steps
+
+        def spread(f, D):
+            flux = np.zeros(n + 1)
+            flux[1:-1] = (D[1:] + D[:-1])/2*np.diff(f)/dy
+            return np.diff(flux)/dy
+        for _ in range(steps):
+            S = np.abs(np.gradient(u, dy))
+            eta = S*k/e
+            C = Cmu
+            if self.turbulence == "realizableKE":
+                # U* = |S| in plane shear
+                C = 1/(4 + np.sqrt(4.5)*eta)
+            nut = C*k**2/e
+            P = np.minimum(nut*S**2, 10*e)
+            gain, decay = C1*P*e/k, C2*e**2/k
+            if self.turbulence == "realizableKE":
+                gain = np.maximum(0.43, eta/(eta + 5))*S*e
+                decay = C2*e**2/(k + np.sqrt(self.nu*e))
+            u, k, e = (u + dt*spread(u, self.nu + nut),
+                       k + dt*(P - e + spread(k, self.nu + nut/sigmak)),
+                       e + dt*(gain - decay
+                               + spread(e, self.nu + nut/sigmaEps)))
+        return y, u, k

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from caseBuilder import RHO, CaseError, Setup, box, damBreak, hydrostatic
-from liquids import ASCII, BedChannel, Channel, binghamGap, setField
+from liquids import (
+    ASCII, COEFFICIENTS, BedChannel, Channel, MixingLayer, binghamGap, setField)
 from test_erosionCriteria import criteria, rows
 from test_parallel import agree
 from test_restart import differing
@@ -67,6 +68,44 @@ def testOpenChannelOverBed(tmp_path, figures, cells, entries):
     deep = p.x[:, 1] < channel.bed - 3*channel.h
     figures.atMost("speed deep in the bed over that of the flow",
                    np.abs(p.U[deep, 0]).max()/channel.mean(), 0.03)
+
+
+@pytest.mark.parametrize("turbulence", COEFFICIENTS)
+def testMixingLayer(tmp_path, figures, turbulence):
+    """Thickness and k of the layer between two streams, and its momentum
+    thickness, against the model's own equations in one dimension: with sources,
+    diffusion or viscosity 10 % off it is another layer"""
+    flow, end = MixingLayer(turbulence), 1.2
+    case = flow.run(tmp_path/"case", end)
+    y, u, k = flow.theory(end)
+    p = case.points()
+    thick = flow.thickness(y, u, np.ones_like(y))
+    figures.atMost("thickness over theory's, less one", float(abs(
+        flow.thickness(p.x[:, 1], p.U[:, 0], p.mass)/thick - 1)), 0.05)
+    figures.atMost("largest k over theory's, less one", float(abs(
+        case.case.field(case.times[-1], "k").max()/k.max() - 1)), 0.05)
+
+
+@pytest.mark.parametrize("turbulence", COEFFICIENTS)
+def testTurbulenceDecays(tmp_path, figures, turbulence):
+    """In water that moves as one, k = k0 (1 + (C2 - 1) t e0/k0)^(-1/(C2 - 1)),
+    of which the viscous part of realizableKE is 1 % here"""
+    k, epsilon, end = 1e-2, 0.1, 0.5
+    case = Setup(
+        cells=(8, 8), h=0.01, points=2, g=(0, 0, 0), energy=False,
+        fluid={"soundSpeed": 10, "mu": 1e-6}, water={
+            "turbulence": turbulence,
+            turbulence + "Coeffs": {"k": k, "epsilon": epsilon}},
+        regions={"all": box((0, 0), (1, 1), velocity=(0.3, 0, 0))}).cyclic(
+            "x", "y").until(end).write(tmp_path/"case").prepare()
+    case.solve()
+    C2 = COEFFICIENTS[turbulence][2]
+    decayed = k*(1 + (C2 - 1)*end*epsilon/k)**(-1/(C2 - 1))
+    for edge in ["min", "max"]:
+        found = getattr(case.case.cloudField(
+            case.times[-1], "water", "k"), edge)()
+        figures.atMost(f"{edge}imum of k over theory's, less one",
+                       float(abs(found/decayed - 1)), 0.01)
 
 
 def overSand(dim, **entries):
@@ -156,12 +195,14 @@ def testTwoRunsAreOne(tmp_path, figures, dim):
 
 
 @pytest.mark.parametrize("water", [KEPSILON, {
+    "turbulence": "realizableKE", "realizableKECoeffs": START}, {
     "turbulence": "Smagorinsky"}, {
         "viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
             "tau0": 1e-3, "k": 1e-3, "n": 0.5, "nu0": 0.1}}, {
         "viscousStep": "stages", "viscosityModel": "BinghamPapanastasiou",
         "BinghamPapanastasiouCoeffs": {"tau0": 0.02, "m": 50}}],
-    ids=["kEpsilon", "Smagorinsky", "HerschelBulkley", "stages"])
+    ids=["kEpsilon", "realizableKE", "Smagorinsky", "HerschelBulkley",
+         "stages"])
 @pytest.mark.parametrize("dim", [2, 3])
 def testRanksAgree(tmp_path, figures, dim, water):
     setup = damBreak(dim, points=2, water=water, wall={"type": "smoothWall"})
@@ -186,6 +227,29 @@ def testBinghamGap(tmp_path, figures, model):
     U[:, 0] = exact(x[:, 1])
     setField(case, "U", U)
     case.solve()
+    p = case.points()
+    figures.atMost("flow over that of theory, less one", float(abs(
+        p.U[:, 0].mean()/exact(p.x[:, 1]).mean() - 1)), 0.02)
+
+
+def testLiquidThatBeginsToYield(tmp_path, figures):
+    """A run that goes on with a yield stress which it did not have before: its
+    points know no shear rate of the step before, and as in the first step of a
+    run they must not be taken for a plug, which would stop the flow"""
+    setup, exact, _ = binghamGap(m=100, water={
+        "transfer": "XAPIC", **STAGES})
+    mud = {key: setup.water.pop(key) for key in [
+        "viscosityModel", "BinghamPapanastasiouCoeffs"]}
+    case = setup.steps(3).write(tmp_path/"case").prepare()
+    x = case.case.cloudField("0", "water", "x")
+    U = np.zeros_like(x)
+    U[:, 0] = exact(x[:, 1])
+    setField(case, "U", U)
+    case.solve()
+    case.change(water=mud, control={"writeInterval": 90})
+    pattern = r"points had no \S*\(.*shearRate.*\); it begins here"
+    found = re.search(pattern, case.solve().text)
+    figures.contains("fields that begin", found and found[0], pattern)
     p = case.points()
     figures.atMost("flow over that of theory, less one", float(abs(
         p.U[:, 0].mean()/exact(p.x[:, 1]).mean() - 1)), 0.02)
@@ -373,7 +437,8 @@ def wallCase(wall, **entries):
      "beside solids a bed would be one"),
     (wallCase("slip", soil={"bedStress": "wallLaw"},
               soilRegions={"bed": box((0, 0), (0.1, 0.04))}),
-     "bedStress is wallLaw, which needs turbulence kEpsilon of the water.*"
+     "bedStress is wallLaw, which needs turbulence kEpsilon or realizableKE of "
+     "the water.*"
      "Allowed here: bedStress drag"),
     (wallCase("slip", soil={"bedStress": "law"}, water=KEPSILON,
               soilRegions={"bed": box((0, 0), (0.1, 0.04))}),

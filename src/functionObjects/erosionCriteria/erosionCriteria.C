@@ -124,7 +124,7 @@ void Foam::mpm::erosionCriteria::readHeights(const dictionary& dict)
     {
         FatalIOErrorInFunction(dict)
             << "keyword shearStress is wallLaw, which needs turbulence kEpsilon"
-            << " of the " << waterName() << ", and drag between it and the "
+            << " or realizableKE of the " << waterName() << ", and drag between it and the "
             << soil().name() << '.' << nl
             << "    Allowed here: logLaw, viscous" << exit(FatalIOError);
     }

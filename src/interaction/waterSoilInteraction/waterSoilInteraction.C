@@ -376,7 +376,8 @@ void Foam::mpm::waterSoilInteraction::readBedStress(const dictionary& dict)
     if (bedStress_ == bedSurface::drag) return;
 
     const char* missing =
-        !(water_.bedRoughness() > 0) ? "turbulence kEpsilon of the "
+        !(water_.bedRoughness() > 0)
+      ? "turbulence kEpsilon or realizableKE of the "
       : !drag_->active() ? "drag between the soil and the "
       : nullptr;
     if (missing)
@@ -1039,7 +1040,7 @@ void Foam::mpm::waterSoilInteraction::effects(effectsTable& table) const
         wall_.valid()
       ? "ks " + Foam::name(wall_->fields().ks) + " m, stress of the law of the"
         " wall on its surface"
-      : string("turbulence kEpsilon")
+      : string("turbulence kEpsilon, realizableKE")
     );
     table.add
     (

@@ -13,3 +13,4 @@
 #include "../turbulence/mixingLength/mixingLength.C"
 #include "../turbulence/Smagorinsky/Smagorinsky.C"
 #include "../turbulence/kEpsilon/kEpsilon.C"
+#include "../turbulence/realizableKE/realizableKE.C"

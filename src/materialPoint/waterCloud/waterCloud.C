@@ -251,6 +251,11 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
             p.v[d] = points_.column(v_ + d);
         }
         p.shearRate = rate;
+        if (rotation_ >= 0)
+        {
+            p.rotationRate = points_.column(rotation_);
+            if (grid_.nDim() == 3) p.strainShape = points_.column(rotation_ + 1);
+        }
         if (coupling_)
         {
             findPorosities();
@@ -287,7 +292,6 @@ void Foam::mpm::waterCloud::findStages(const scalar deltaT)
     for (label d = 0; d < grid_.nDim(); ++d) sum += 1/sqr(cells.spacing(d));
     const scalar z = deltaT*2*nu*sum/grid_.secondMoment();
     nStages_ = label(std::ceil(0.5*(std::sqrt(1 + 4*z) - 1)));
-    if (nut_ >= 0) noViscosity_.resize(size() + nLanes, 0);
 }
 
 
@@ -642,6 +646,7 @@ Foam::mpm::waterCloud::waterCloud
       ? points_.add("nut", pointStorage::scalarValue)
       : -1
     ),
+    rotation_(-1),
     bed_(nullptr),
     maxNut_(0),
     globalMaxNut_(0),
@@ -670,6 +675,14 @@ Foam::mpm::waterCloud::waterCloud
     {
         addMeshMeans();
         points_.add("shearRate", pointStorage::scalarValue);
+        if (turbulence_.valid() && turbulence_->needsRotation())
+        {
+            rotation_ = points_.add("rotationRate", pointStorage::scalarValue);
+            if (grid.nDim() == 3)
+            {
+                points_.add("strainShape", pointStorage::scalarValue);
+            }
+        }
     }
     if (inStages_ && grid.shapeFunction() == linear::name)
     {

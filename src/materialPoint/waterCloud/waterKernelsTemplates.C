@@ -5,9 +5,11 @@ License
 
 #include "waterKernels.H"
 #include "waterMaterial.H"
+#include "strainRate.H"
 #include "waterCloud.H"
 #include "cloudKernelsFor.H"
 #include "cellQuadrature.H"
+#include <algorithm>
 
 namespace Foam
 {
@@ -102,6 +104,11 @@ class waterKernelsFor
         {
             m.nut = c.points_.column(c.nut_);
             m.shearRate = c.points_.column(c.nut_ + 1);
+            if (c.rotation_ >= 0)
+            {
+                m.rotationRate = c.points_.column(c.rotation_);
+                if (dim == 3) m.strainShape = c.points_.column(c.rotation_ + 1);
+            }
         }
         for (int d = 0; d < dim; ++d)
         {
@@ -472,7 +479,7 @@ class waterKernelsFor
         if (c.nStages_ > 0)
         {
             m.mu = 0;
-            if constexpr (eddy) m.nut = c.noViscosity_.data();
+            m.nut = nullptr;
         }
         if (c.cellQuadrature_)
         {
@@ -488,13 +495,17 @@ class waterKernelsFor
         c.correctionWork_ += sumLanes(m.correctionWork);
     }
 
-    //- The shear rates that points start with: those of the step before do not
-    //  exist, and with none a liquid that yields would be stiff for a step
+    //- The rates of points that start or entered, which have none of the step
+    //  before: with none a liquid that yields would be stiff for a step
     void startShearRates()
     {
         waterCloud& c = cloud_;
         scalar* rate = c.points_.column(c.nut_ + 1);
-        kernels_.stressToGrid
+        const auto end = rate + c.size();
+        if (std::find(rate, end, 0) == end) return;
+
+        waterMaterial<dim, true> m(makeMaterial<true>(0));
+        kernels_.gradientsToPoints
         (
             c.view<dim>(),
             c.nodes_.velocity,
@@ -502,26 +513,15 @@ class waterKernelsFor
             (
                 const label p,
                 const laneMask& valid,
-                const lanes (&L)[dim + 1][dim],
-                lanes (&flux)[dim][dim]
+                const lanes (&L)[dim + 1][dim]
             )
             {
-                lanes divV = L[0][0];
-                for (int d = 1; d < dim; ++d) divV += L[d][d];
-                lanes rateSqr{};
-                for (int d = 0; d < dim; ++d)
-                {
-                    for (int e = 0; e < dim; ++e)
-                    {
-                        lanes s = L[e][d] + L[d][e];
-                        if (e == d) s -= (2.0/3.0)*divV;
-                        rateSqr += 0.5*s*s;
-                        flux[d][e] = lanes{};
-                    }
-                }
-                storeLanes(rate + p, sqrtLanes(rateSqr), valid);
-            },
-            c.nodes_
+                const laneMask starts =
+                    valid & (loadLanes(rate + p) == lanes{});
+                lanes s[dim][dim];
+                twiceDeviator<dim>(L, s);
+                m.setRates(p, starts, L, s);
+            }
         );
     }
 
@@ -572,16 +572,10 @@ class waterKernelsFor
                     lanes viscosity = allLanes(nu);
                     if (nut) viscosity += loadLanes(nut + p);
                     viscosity *= loadLanes(points.mass + p);
-                    lanes divV = L[0][0];
-                    for (int d = 1; d < dim; ++d) divV += L[d][d];
+                    twiceDeviator<dim>(L, flux);
                     for (int d = 0; d < dim; ++d)
                     {
-                        for (int e = 0; e < dim; ++e)
-                        {
-                            lanes strain = L[e][d] + L[d][e];
-                            if (e == d) strain -= (2.0/3.0)*divV;
-                            flux[d][e] = -viscosity*strain;
-                        }
+                        for (int e = 0; e < dim; ++e) flux[d][e] *= -viscosity;
                     }
                 },
                 nodes
@@ -680,7 +674,7 @@ public:
 
         if (c.nut_ >= 0)
         {
-            if (c.time().timeIndex() <= 1) startShearRates();
+            startShearRates();
             c.correctViscosity(deltaT);
         }
         c.findStages(deltaT);
