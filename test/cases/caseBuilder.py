@@ -139,6 +139,8 @@ class Setup:
     liquid = "water"
 
     def __post_init__(self):
+        # Several setups may be given the same one, which steps() changes
+        self.control = dict(self.control)
         if self.g is None:
             self.g = (0, -G, 0) if self.dim == 2 else (0, 0, -G)
 
