@@ -163,26 +163,26 @@ def released(case, face):
         (p.mass*p.J)[p.x[:, 0] > face + 0.05].sum()/RHO/case.setup.h)
 
 
-def sluice(thickness, end):
+def sluice(thickness, end, x=0.6, opening=0.06):
     """Water leaves below a plate"""
-    h, level, opening = 0.01, 0.3, 0.06
+    h, level = 0.01, 0.3
     return Setup(
         cells=(100, 34), h=h, points=2,
-        regions={"pool": hydrostatic((0, 0), (0.6, level))},
-        bodies={"plate": plate((0.6, opening), (0.6, 0.4), thickness*h)},
+        regions={"pool": hydrostatic((0, 0), (x, level))},
+        bodies={"plate": plate((x, opening), (x, 0.4), thickness*h)},
         sides={"xmax": ("patch", "zeroGradient")},
         energy=False).until(end, 0.05), level, opening
 
 
-def discharge(case, level, opening):
+def discharge(case, level, opening, x=0.6):
     """Over that of Torricelli's law with a contraction of 0.61, of the second
     half of the time"""
     volumes = []
     for time in case.times:
         p = case.points(time)
-        behind = p.x[:, 0] < 0.6
+        behind = p.x[:, 0] < x
         volumes.append((p.mass*p.J)[behind].sum()/RHO/case.setup.h)
     q = -np.diff(volumes)/np.diff([float(t) for t in case.times])
-    H = np.array(volumes)[1:]/0.6
+    H = np.array(volumes)[1:]/x
     exact = 0.61*opening*np.sqrt(2*G*H/(1 + 0.61*opening/H))
     return (q/exact)[len(q)//2:].mean()

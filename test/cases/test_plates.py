@@ -93,14 +93,6 @@ def nothingPasses(tmp_path, figures, thickness, degrees, soil, motion=None):
         "momentum that the plate took from the left, %", 100*np.linalg.norm(
             given - left)/np.linalg.norm(given), 1 if motion else 5)
     change = last["U"][right] - only["U"]
-    if soil and motion and motion.get("degrees"):
-        # Beside an inclined plate that turns soil does know of the other side:
-        # 1e-7 m/s beside 0.1 h, 2e-6 beside 2 h, where water has 1e-11. Rounding
-        # does not grow so in it; the cause is not known. Bound: what is asked
-        figures.atMost("momentum that passed, %", 100*np.linalg.norm(
-            (last["mass"][right, None]*change).sum(axis=0))
-            / np.linalg.norm(given), 0.1)
-        return {**first, "right": right}, {**last, "case": both}
     figures.atMost("other positions than alone, m",
                    abs(last["x"][right] - only["x"]).max(), 1e-12)
     figures.atMost("other velocities than alone, m/s", abs(change).max(), 1e-10)
@@ -148,7 +140,7 @@ def testAGateThinAndThick(tmp_path, figures):
         figures.atMost(f"{name} over that without a gate", thin/none, 0.95)
 
 
-@pytest.mark.parametrize("thickness", [0.1, 1])
+@pytest.mark.parametrize("thickness", [0.1, 1, 2])
 def testFlowUnderAnEdge(tmp_path, figures, thickness):
     """The discharge of a sluice gate by Torricelli's law, with a contraction
     of 0.61"""

@@ -122,7 +122,7 @@ TEST_CASE("plate: views, nearest places and parts")
     {
         const FixedList<scalar, 4> part
         (
-            thin.parts(point(0.05*i, 0.06*i, 0), 0.25)
+            thin.parts(thin.local(point(0.05*i, 0.06*i, 0)), 0.25)
         );
         worst = max(worst, mag(part[0] + part[1] + part[2] + part[3] - 1));
     }

@@ -8,7 +8,6 @@ License
 #include "PstreamReduceOps.H"
 #include "bitSet.H"
 #include <algorithm>
-#include <functional>
 #include <vector>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -354,18 +353,25 @@ void Foam::mpm::backgroundGrid::findTwins()
 
 
 Foam::mpm::backgroundGrid::platedRecords
-Foam::mpm::backgroundGrid::findPlated() const
+Foam::mpm::backgroundGrid::findPlated()
 {
     platedRecords found;
-    const scalar far = platedReach*lattice_->minSpacing();
-    const scalar near = 2*lattice_->minSpacing();
-    labelList view(nFirst(), plate::none);
-    labelList plateOfNode(nBoxNodes(), -1);
+    found.nodes.reserve(plated_.nodes.size());
+    found.cells.reserve(plated_.cells.size());
+    const scalar h = lattice_->minSpacing();
+    const scalar far = platedReach*h;
+    const scalar near = 2*h;
+    nodeView_.resize(nFirst(), plate::none);
+    nodePlate_.resize(nBoxNodes(), -1);
+    point place(Zero);
+    if (nDim() == 2) place[lattice_->axis(2)] = lattice_->midPlane();
 
-    // Box coordinates around a plate, in which the nodes are that it parts
-    auto range = [&](const plate& thin, index3& first, index3& last)
+    // Call op(node, its place in coordinates of the plate) for what is around
+    // one, so much farther [nodes]
+    auto forRange = [&](const plate& thin, const label more, const auto& op)
     {
         const boundBox bounds(thin.bounds());
+        index3 first, last, i;
         first = 0;
         last = 0;
         for (label d = 0; d < nDim(); ++d)
@@ -374,85 +380,88 @@ Foam::mpm::backgroundGrid::findPlated() const
             const scalar from = bounds.min()[axis] - far;
             const scalar to = bounds.max()[axis] + far;
             first[d] = max
-                (label(0), lattice_->cellCoordinate(d, from) - lower_[d]);
+            (
+                label(0), lattice_->cellCoordinate(d, from) - lower_[d] - more
+            );
             last[d] = min
             (
-                nNodes_[d] - 1, lattice_->cellCoordinate(d, to) - lower_[d] + 1
+                nNodes_[d] - 1,
+                lattice_->cellCoordinate(d, to) - lower_[d] + 1 + more
             );
-            if (first[d] > last[d]) return false;
+            if (first[d] > last[d]) return;
         }
-        return true;
-    };
-    auto forRange = [&]
-    (
-        const index3& first,
-        const index3& last,
-        const std::function<void(const label)>& op
-    )
-    {
-        index3 i;
+        point x(place);
         for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
         for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
         for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
         {
-            op(index(i));
+            for (label d = 0; d < nDim(); ++d)
+            {
+                // As nodePosition()
+                x[lattice_->axis(d)] = lattice_->origin(d)
+                  + (i[d] + lower_[d])*lattice_->spacing(d);
+            }
+            op(index(i), thin.local(x));
         }
     };
 
     for (size_t p = 0; p < plates_.size(); ++p)
     {
         const plate& thin = plates_[p];
-        auto part = [&](const label node)
+        auto part = [&](const label node, const vector& at)
         {
-            if (view[node] != plate::none) return;
-            const point x(nodePosition(node));
-            const label own = thin.viewAt(x);
-            if (own == plate::none || mag(thin.height(x)) > far) return;
-            view[node] = own;
-            plateOfNode[boxNode(node)] = label(p);
+            if (mag(at[2]) > far || nodeView_[node] != plate::none) return;
+            const label own = thin.viewOf(at);
+            if (own == plate::none) return;
+            nodeView_[node] = own;
+            nodePlate_[boxNode(node)] = label(p);
             found.nodes.emplace_back(node, own);
         };
-        index3 first, last;
-        if (range(thin, first, last)) forRange(first, last, part);
-        for (label i = nBoxNodes(); i < nFirst(); ++i) part(i);
+        forRange(thin, 0, part);
+        for (label i = nBoxNodes(); i < nFirst(); ++i)
+        {
+            part(i, thin.local(nodePosition(i)));
+        }
     }
     std::sort(found.nodes.begin(), found.nodes.end());
 
     // Cells that reach nodes of both sides, or are near
-    bitSet seen(nBoxNodes());
-    auto add = [&](const label cell)
-    {
-        if (!ownCell(cell) || seen.test(cell)) return;
-        seen.set(cell);
-        label p = -1;
-        bool sides[3] = {false, false, false};
-        for (label t = 0; t < reachSize(); ++t)
-        {
-            const label node = cell + reachOffset() + reachNode(t);
-            if (plateOfNode[node] >= 0) p = plateOfNode[node];
-            sides[view[node]] = true;
-        }
-        if
-        (
-            (sides[plate::front] && sides[plate::back])
-         || (p >= 0 && mag(plates_[p].height(nodePosition(cell))) < near)
-        )
-        {
-            found.cells.emplace_back(cell, p);
-        }
-    };
+    const scalar reached = far + std::sqrt(scalar(nDim()))*reachWidth_*h;
     for (const plate& thin : plates_)
     {
-        index3 first, last;
-        if (!range(thin, first, last)) continue;
-        for (label d = 0; d < nDim(); ++d)
+        auto add = [&](const label cell, const vector& at)
         {
-            first[d] = max(label(0), first[d] - reachWidth_);
-            last[d] = min(nNodes_[d] - 1, last[d] + reachWidth_);
-        }
-        forRange(first, last, add);
+            if (!ownCell(cell) || thin.farther(at, reached)) return;
+            label p = -1;
+            bool sides[3] = {false, false, false};
+            for (label t = 0; t < reachSize(); ++t)
+            {
+                const label node = cell + reachOffset() + reachNode(t);
+                if (nodePlate_[node] >= 0) p = nodePlate_[node];
+                sides[nodeView_[node]] = true;
+            }
+            if
+            (
+                (sides[plate::front] && sides[plate::back])
+             || (p >= 0 && mag(plates_[p].height(nodePosition(cell))) < near)
+            )
+            {
+                found.cells.emplace_back(cell, p);
+            }
+        };
+        forRange(thin, reachWidth_, add);
     }
     std::sort(found.cells.begin(), found.cells.end());
+    found.cells.erase
+    (
+        std::unique(found.cells.begin(), found.cells.end()), found.cells.end()
+    );
+
+    for (const auto& node : found.nodes)
+    {
+        nodeView_[node.first] = plate::none;
+        nodePlate_[boxNode(node.first)] = -1;
+    }
     return found;
 }
 
@@ -464,6 +473,8 @@ void Foam::mpm::backgroundGrid::findSeconds()
     ownView_.clear();
     firstOf_.clear();
     plateOf_.clear();
+    nodeView_.clear();
+    nodePlate_.clear();
     if (!plated()) return;
 
     plated_ = findPlated();
@@ -617,7 +628,7 @@ void Foam::mpm::backgroundGrid::setPlates(const std::vector<plate>& plates)
 }
 
 
-bool Foam::mpm::backgroundGrid::recordsStale() const
+bool Foam::mpm::backgroundGrid::recordsStale()
 {
     return returnReduce(findPlated() != plated_, orOp<bool>());
 }
@@ -666,7 +677,7 @@ size_t Foam::mpm::backgroundGrid::memory() const
         (
             cellRank_.size() + meshCell_.size() + boxCell_.size()
           + second_.size() + ownView_.size() + firstOf_.size()
-          + plateOf_.size()
+          + plateOf_.size() + nodeView_.size() + nodePlate_.size()
           + 2*(plated_.nodes.size() + plated_.cells.size())
         );
 }

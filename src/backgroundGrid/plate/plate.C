@@ -7,6 +7,20 @@ License
 #include "pointField.H"
 #include <cmath>
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+    using namespace Foam;
+
+    //- Part of a length that is above a place, of which its middle is that far
+    scalar above(const scalar distance, const scalar length)
+    {
+        return min(scalar(1), max(scalar(0), 0.5 + distance/length));
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::plate::plate
@@ -30,6 +44,21 @@ Foam::mpm::plate::plate
     upper_[0] = 0.5*length;
     lower_[1] = endless ? -0.1*GREAT : -0.5*width;
     upper_[1] = endless ? 0.1*GREAT : 0.5*width;
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::mpm::plate::partInSpan
+(
+    const label k,
+    const vector& local,
+    const scalar size
+) const
+{
+    return
+        above(local[k] - lower_[k], size) + above(upper_[k] - local[k], size)
+      - 1;
 }
 
 
@@ -110,24 +139,15 @@ Foam::mpm::plate::surface Foam::mpm::plate::nearest(const point& x) const
 
 Foam::FixedList<Foam::scalar, 4> Foam::mpm::plate::parts
 (
-    const point& x,
+    const vector& local,
     const scalar size
 ) const
 {
-    auto above = [&](const scalar distance)
-    {
-        return min(scalar(1), max(scalar(0), 0.5 + distance/size));
-    };
-    const scalar eta = height(x);
-    scalar inSpan = 1;
-    for (label k = 0; k < 2; ++k)
-    {
-        const scalar xi = axes_[k] & (x - centre_);
-        inSpan *= above(xi - lower_[k]) + above(upper_[k] - xi) - 1;
-    }
+    const scalar eta = local[2];
+    const scalar inSpan = partInSpan(0, local, size)*partInSpan(1, local, size);
     FixedList<scalar, 4> part;
-    part[front] = inSpan*above(eta - halfThickness_);
-    part[back] = inSpan*above(-eta - halfThickness_);
+    part[front] = inSpan*above(eta - halfThickness_, size);
+    part[back] = inSpan*above(-eta - halfThickness_, size);
     part[none] = 1 - inSpan;
     part[3] = max(scalar(0), inSpan - part[front] - part[back]);
     return part;

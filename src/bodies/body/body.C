@@ -280,6 +280,15 @@ Foam::dictionary Foam::mpm::body::wallOf(const word& cloud) const
 }
 
 
+Foam::boundBox Foam::mpm::body::reachedBounds(const scalar spacing) const
+{
+    if (!plate_.valid()) return bounds();
+
+    const vector far(vector::uniform((reach + 2)*spacing));
+    return boundBox(bounds_.min() - far, bounds_.max() + far);
+}
+
+
 Foam::boundBox Foam::mpm::body::bounds() const
 {
     if (plate_.valid())

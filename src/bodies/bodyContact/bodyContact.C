@@ -34,11 +34,14 @@ Foam::mpm::bodyContact::bodyContact
     nodes_(grid, all),
     noSlip_(all.size(), false),
     friction_(all.size(), 0),
+    plateOf_(all.size(), -1),
     impulse_(all.size()),
     loads_(all.size())
 {
+    label nPlates = 0;
     for (label b = 0; b < all.size(); ++b)
     {
+        if (all[b].thinPlate()) plateOf_[b] = nPlates++;
         const dictionary dict(all[b].wallOf(cloud));
         checkKeywords(dict, {"type", "frictionCoefficient"}, strict);
         noSlip_[b] =
@@ -66,7 +69,7 @@ Foam::mpm::bodyContact::bodyContact
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::mpm::bodyContact::place()
+void Foam::mpm::bodyContact::put(const bool renewed)
 {
     // Nodes keep what they know, by what they are
     std::unordered_map<int64_t, scalar> kept(read_);
@@ -74,9 +77,12 @@ void Foam::mpm::bodyContact::place()
     {
         if (next_[k] > 0) kept[nodes_.id(label(k))] = next_[k];
     }
-    nodes_.build(boundary_.folding(), boundary_.inverseVolume());
-    next_.assign(nodes_.size(), 0);
-    for (label k = 0; k < nodes_.size(); ++k)
+    const bool others = nodes_.build
+    (
+        boundary_.folding(), boundary_.inverseVolume(), renewed
+    );
+    if (others) next_.assign(nodes_.size(), 0);
+    for (label k = 0; others && k < nodes_.size(); ++k)
     {
         const auto found = kept.find(nodes_.id(k));
         if (found != kept.end()) next_[k] = found->second;
@@ -133,10 +139,10 @@ void Foam::mpm::bodyContact::follow(const scalar deltaT, nodeMotion& nodes)
     }
 
     // Mean normal force of the contact over the time of its vibration
-    const scalar fresh = 1 - std::exp(-deltaT/memory_);
     std::vector<scalar> steady(nodes_.size(), 0);
     for (const label k : near_)
     {
+        const scalar fresh = 1 - std::exp(-deltaT/memory(nodes_[k]));
         const scalar now = pressed[k]/deltaT;
         next_[k] = mean_[k] > 0 ? mean_[k] + fresh*(now - mean_[k]) : now;
         steady[k] = deltaT*next_[k];

@@ -80,7 +80,7 @@ bool Foam::mpm::bodyNodes::range
 ) const
 {
     const lattice& cells = grid_.cells();
-    const boundBox bounds(b.bounds());
+    const boundBox bounds(b.reachedBounds(cells.minSpacing()));
     first = 0;
     last = 0;
     for (label d = 0; d < cells.nDim(); ++d)
@@ -102,21 +102,56 @@ bool Foam::mpm::bodyNodes::range
 }
 
 
-void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
+bool Foam::mpm::bodyNodes::findIds(const std::vector<scalar>& inverseVolume)
 {
-    const lattice& cells = grid_.cells();
-    const scalar h = cells.minSpacing();
-    const scalar far = body::reach*h;
+    const scalar far = body::reach*grid_.cells().minSpacing();
 
+    // Of this rank, each copy once
+    std::vector<std::pair<int64_t, label>> own;
+    own.reserve(own_.size());
+    for (label b = 0; b < bodies_.size(); ++b)
+    {
+        index3 first, last;
+        if (!range(bodies_[b], first, last)) continue;
+        index3 i;
+        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
+        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
+        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
+        {
+            const label node = grid_.index(i);
+            if (!(inverseVolume[node] > 0)) continue;
+            index3 at;
+            at = 0;
+            for (label d = 0; d < grid_.nDim(); ++d)
+            {
+                at[d] = i[d] + grid_.lower(d);
+            }
+            if (!(mag(bodies_[b].distance(positionOf(at))) < far)) continue;
+            own.emplace_back(globalId(at), node);
+
+            const label second = bodies_[b].thinPlate()
+              ? grid_.second(node) : -1;
+            if (second >= 0) own.emplace_back(globalId(at, true), second);
+        }
+    }
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+
+    const bool others = returnReduce(own != own_, orOp<bool>());
+    own_.swap(own);
+    return others;
+}
+
+
+void Foam::mpm::bodyNodes::number(const std::vector<scalar>& inverseVolume)
+{
     for (const local& l : local_) numberOf_[l.grid] = -1;
     local_.clear();
-    nodes_.clear();
     id_.clear();
     number_.clear();
 
-    // Of this rank, each copy once. Nodes that no own cell reaches, only its
-    // neighbours', may have values that another rank knows better
-    std::vector<std::pair<int64_t, label>> own;
+    // Nodes that no own cell reaches, only its neighbours', may have values that
+    // another rank knows better
     auto reached = [&](const label node)
     {
         const label first = grid_.boxNode(node) - grid_.reachOffset();
@@ -130,42 +165,11 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
         }
         return !Pstream::parRun();
     };
-    for (label b = 0; b < bodies_.size(); ++b)
-    {
-        index3 first, last;
-        if (!range(bodies_[b], first, last)) continue;
-        index3 i;
-        for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
-        for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
-        for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
-        {
-            const label node = grid_.index(i);
-            if (!(inverseVolume[node] > 0)) continue;
-            const scalar phi = bodies_[b].distance(grid_.nodePosition(node));
-            if (!(mag(phi) < far) || numberOf_[node] >= 0) continue;
-            numberOf_[node] = 0;
-
-            index3 at;
-            at = 0;
-            for (label d = 0; d < cells.nDim(); ++d)
-            {
-                at[d] = i[d] + grid_.lower(d);
-            }
-            own.emplace_back(globalId(at), node);
-
-            const label second = bodies_[b].thinPlate()
-              ? grid_.second(node) : -1;
-            if (second < 0) continue;
-            numberOf_[second] = 0;
-            own.emplace_back(globalId(at, true), second);
-        }
-    }
-    std::sort(own.begin(), own.end());
 
     // Of all ranks; the first one that reaches a node gives it
     List<List<int64_t>> ids(Pstream::nProcs());
     DynamicList<int64_t> mine;
-    for (const auto& o : own)
+    for (const auto& o : own_)
     {
         if (reached(o.second)) mine.append(o.first);
     }
@@ -186,11 +190,44 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
     for (size_t i = 0; i < id_.size(); ++i) number_[id_[i]] = label(i);
 
     nodes_.resize(id_.size());
-    for (size_t k = 0; k < id_.size(); ++k)
+    std::vector<scalar> inverse(nodes_.size(), 0);
+    int64_t last = -1;
+    for (const auto& o : own_)
+    {
+        const label k = number_[o.first];
+        numberOf_[o.second] = k;
+        const bool gives =
+            o.first != last && giver[o.first] == Pstream::myProcNo()
+         && reached(o.second);
+        if (gives) last = o.first;
+        local_.push_back(local{o.second, k, gives});
+        if (gives) inverse[k] = inverseVolume[o.second];
+    }
+    sum(inverse);
+    for (size_t k = 0; k < nodes_.size(); ++k)
+    {
+        nodes_[k].x = positionOf(coordinateOf(id_[k]));
+        nodes_[k].inverseVolume = inverse[k];
+        nodes_[k].free = vector::one;
+        nodes_[k].given = Zero;
+    }
+}
+
+
+void Foam::mpm::bodyNodes::measure()
+{
+    const lattice& cells = grid_.cells();
+    const scalar h = cells.minSpacing();
+
+    // How far the function of a node reaches
+    vector support(Zero);
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        support[cells.axis(d)] = 0.5*grid_.tileWidth()*cells.spacing(d);
+    }
+    for (size_t k = 0; k < nodes_.size(); ++k)
     {
         node& n = nodes_[k];
-        n.x = positionOf(coordinateOf(id_[k]));
-
         n.body = bodies_.nearest(n.x, n.phi);
         const plate* thin = bodies_[n.body].thinPlate();
         if (!thin)
@@ -204,56 +241,26 @@ void Foam::mpm::bodyNodes::findNodes(const std::vector<scalar>& inverseVolume)
             const vector fine(bodies_[n.body].gradient(n.x, 0.5*h));
             const vector& longer = mag(fine) > mag(g) ? fine : g;
             n.n = mag(longer) > SMALL ? longer/mag(longer) : vector(Zero);
+            n.buried = false;
+            continue;
+        }
+        n.smooth = thin->smooth(n.x, h);
+        n.view = thin->viewAt(n.x);
+        if (id_[k] < nIds())
+        {
+            const plate::surface near(thin->nearest(n.x));
+            n.n = near.normal;
+            n.faced = near.face;
         }
         else
         {
-            n.smooth = thin->smooth(n.x, h);
-            n.view = thin->viewAt(n.x);
-            if (id_[k] < nIds())
-            {
-                const plate::surface near(thin->nearest(n.x));
-                n.n = near.normal;
-                n.faced = near.face;
-            }
-            else
-            {
-                // Behind the face of the other side
-                n.phi = -mag(thin->height(n.x)) - 0.5*thin->thickness();
-                n.n = (n.view == plate::front ? -1 : 1)*thin->normal();
-                n.view = plate::front + plate::back - n.view;
-                n.faced = true;
-            }
+            // Behind the face of the other side
+            n.phi = -mag(thin->height(n.x)) - 0.5*thin->thickness();
+            n.n = (n.view == plate::front ? -1 : 1)*thin->normal();
+            n.view = plate::front + plate::back - n.view;
+            n.faced = true;
         }
-        n.V = 0;
-        n.W = Zero;
-        n.A = Zero;
-        n.T = Zero;
-        n.inverseVolume = 0;
-        n.free = vector::one;
-        n.given = Zero;
-    }
-
-    int64_t last = -1;
-    for (const auto& o : own)
-    {
-        const label k = number_[o.first];
-        numberOf_[o.second] = k;
-        const bool gives =
-            o.first != last && giver[o.first] == Pstream::myProcNo()
-         && reached(o.second);
-        if (gives) last = o.first;
-        local_.push_back(local{o.second, k, gives});
-        if (gives) nodes_[k].inverseVolume = inverseVolume[o.second];
-    }
-    std::vector<scalar> inverse(nodes_.size());
-    for (size_t k = 0; k < nodes_.size(); ++k)
-    {
-        inverse[k] = nodes_[k].inverseVolume;
-    }
-    sum(inverse);
-    for (size_t k = 0; k < nodes_.size(); ++k)
-    {
-        nodes_[k].inverseVolume = inverse[k];
+        n.buried = thin->hides(n.x, n.view, support);
     }
 }
 
@@ -410,6 +417,7 @@ public:
 void Foam::mpm::bodyNodes::addFolded
 (
     const label cell,
+    const index3& coordinate,
     const label t,
     const label k,
     const moments& m,
@@ -420,18 +428,23 @@ void Foam::mpm::bodyNodes::addFolded
     const lattice& cells = grid_.cells();
     const label nDim = cells.nDim();
     const label s = folding.stencil(cell);
-    const label ghost = cell + grid_.reachOffset() + grid_.reachNode(t);
-    const label target = s < 0 ? ghost : folding.targets(s)[t];
 
     // x_I of the node in reach, and of its target, from the corner
-    const index3 i = grid_.coordinate(cell);
-    const index3 atGhost = grid_.coordinate(ghost);
-    const index3 atTarget = grid_.coordinate(target);
     vector reached(Zero), own(Zero), scale(Zero), sign(Zero);
+    label rest = t;
     for (label d = 0; d < nDim; ++d)
     {
-        reached[d] = atGhost[d] - i[d];
-        own[d] = atTarget[d] - i[d];
+        reached[d] = grid_.reachStart() + rest % grid_.reachWidth();
+        rest /= grid_.reachWidth();
+    }
+    own = reached;
+    if (s >= 0)
+    {
+        const index3 target = grid_.coordinate(folding.targets(s)[t]);
+        for (label d = 0; d < nDim; ++d) own[d] = target[d] - coordinate[d];
+    }
+    for (label d = 0; d < nDim; ++d)
+    {
         sign[d] = s < 0 ? 1 : folding.signs(s)[t][d];
         scale[d] = sign[d]/(grid_.secondMoment()*cells.spacing(d));
     }
@@ -475,7 +488,7 @@ void Foam::mpm::bodyNodes::forCells(const body& b, const Op& op) const
         {
             middle[cells.axis(d)] += 0.5*cells.spacing(d);
         }
-        op(cell, corner, middle);
+        op(cell, i, corner, middle);
     }
 }
 
@@ -502,7 +515,13 @@ void Foam::mpm::bodyNodes::integrateClosed
     forCells
     (
         b,
-        [&](const label cell, const point& corner, const point& middle)
+        [&]
+        (
+            const label cell,
+            const index3& coordinate,
+            const point& corner,
+            const point& middle
+        )
         {
             const scalar phi = b.distance(middle);
             if (phi < h + diagonal) nearCells_.set(cell);
@@ -535,7 +554,8 @@ void Foam::mpm::bodyNodes::integrateClosed
                 const label target = s < 0 ? ghost : folding.targets(s)[t];
                 const label k = target < numberOf_.size()
                   ? numberOf_[target] : -1;
-                if (k >= 0) addFolded(cell, t, k, m[t], folding, sums);
+                if (k < 0) continue;
+                addFolded(cell, coordinate, t, k, m[t], folding, sums);
             }
         }
     );
@@ -559,46 +579,68 @@ void Foam::mpm::bodyNodes::integratePlate
     // Coarser where that has to be done in each step
     const label nSub = (nDim == 3 ? 8 : 16)/(b.motion().moves() ? 2 : 1);
     const dividedCell divided(grid_, nSub);
-    const scalar dV = cells.cellVolume()/divided.size();
+    const label nSubs = divided.size();
+    const scalar dV = cells.cellVolume()/nSubs;
 
-    // What is of each view, and last of the plate itself
+    // Parts of a cell: of each view, and last in the plate; where they are from
+    // the corner, the same in all cells
     constexpr label inPlate = 3;
-    const std::vector<moments> zero(size);
-    std::vector<moments> full(size);
-    std::vector<moments> of[4];
+    std::vector<vector> offset(nSubs);
+    for (label sub = 0; sub < nSubs; ++sub)
+    {
+        offset[sub] = thin.components(divided.position(Zero, sub));
+    }
+    std::vector<moments> full(size), cut[4];
     std::vector<scalar> volume[4];
-    for (std::vector<scalar>& v : volume) v.assign(divided.size(), dV);
+    for (label part = 0; part < 4; ++part)
+    {
+        volume[part].assign(nSubs, dV);
+        cut[part].resize(size);
+    }
     divided.findMoments(volume[0], full);
 
     forCells
     (
         b,
-        [&](const label cell, const point& corner, const point& middle)
+        [&]
+        (
+            const label cell,
+            const index3& coordinate,
+            const point& corner,
+            const point& middle
+        )
         {
+            // No node in its reach knows of the plate
+            const vector at(thin.local(middle));
+            if (thin.farther(at, (body::reach + 2)*h + diagonal)) return;
+
             if (grid_.plateOf(cell) >= 0 || b.distance(middle) < h + diagonal)
             {
                 nearCells_.set(cell);
             }
 
             // Wholly of one of them, or divided
+            const moments* of[4] = {nullptr, nullptr, nullptr, nullptr};
             const FixedList<scalar, 4> whole
             (
-                thin.parts(middle, 2*diagonal + h/nSub)
+                thin.parts(at, 2*diagonal + h/nSub)
             );
-            bool cut = true;
+            bool isCut = true;
             for (label part = 0; part < 4; ++part)
             {
-                cut = cut && whole[part] < 1;
-                of[part] = whole[part] < 1 ? zero : full;
+                if (whole[part] < 1) continue;
+                of[part] = full.data();
+                isCut = false;
             }
-            if (cut)
+            if (isCut)
             {
+                const vector first(thin.local(corner));
                 bool any[4] = {false, false, false, false};
-                for (label sub = 0; sub < divided.size(); ++sub)
+                for (label sub = 0; sub < nSubs; ++sub)
                 {
                     const FixedList<scalar, 4> parts
                     (
-                        thin.parts(divided.position(corner, sub), h/nSub)
+                        thin.parts(first + offset[sub], h/nSub)
                     );
                     for (label part = 0; part < 4; ++part)
                     {
@@ -608,7 +650,9 @@ void Foam::mpm::bodyNodes::integratePlate
                 }
                 for (label part = 0; part < 4; ++part)
                 {
-                    if (any[part]) divided.findMoments(volume[part], of[part]);
+                    if (!any[part]) continue;
+                    divided.findMoments(volume[part], cut[part]);
+                    of[part] = cut[part].data();
                 }
             }
 
@@ -619,26 +663,23 @@ void Foam::mpm::bodyNodes::integratePlate
                     s < 0
                   ? cell + grid_.reachOffset() + grid_.reachNode(t)
                   : folding.targets(s)[t];
-                auto addUnseen = [&](const label record)
+                for (const label record : {node, grid_.second(node)})
                 {
                     const label k = record < 0 ? -1 : numberOf_[record];
-                    if (k < 0) return;
+                    if (k < 0 || nodes_[k].buried) continue;
                     const label view = grid_.viewOf(record);
-                    const bool own = record == node;
-                    moments unseen(of[inPlate][t]);
-                    for (const label other : {plate::front, plate::back})
+                    moments unseen;
+                    for (label part = 0; part < 4; ++part)
                     {
-                        if (view == plate::none || view == other) continue;
-                        unseen += of[other][t];
+                        const bool sees =
+                            part == plate::none ? record == node
+                          : part == inPlate ? false
+                          : view == plate::none || view == part;
+                        if (of[part] && !sees) unseen += of[part][t];
                     }
-                    if (!own) unseen += of[plate::none][t];
-                    if (unseen.V > 0)
-                    {
-                        addFolded(cell, t, k, unseen, folding, sums);
-                    }
-                };
-                addUnseen(node);
-                addUnseen(grid_.second(node));
+                    if (!(unseen.V > 0)) continue;
+                    addFolded(cell, coordinate, t, k, unseen, folding, sums);
+                }
             }
         }
     );
@@ -660,7 +701,9 @@ void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
     for (size_t k = 0; k < nodes_.size(); ++k)
     {
         const scalar* s = sums.data() + k*16;
-        nodes_[k].V = s[0];
+        nodes_[k].V =
+            nodes_[k].buried && nodes_[k].inverseVolume > 0
+          ? 1/nodes_[k].inverseVolume : s[0];
         nodes_[k].A = vector(s[1], s[2], s[3]);
         for (label c = 0; c < 9; ++c) nodes_[k].T[c] = s[4 + c];
         nodes_[k].W = vector(s[13], s[14], s[15]);
@@ -731,10 +774,11 @@ Foam::mpm::bodyNodes::bodyNodes
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::mpm::bodyNodes::build
+bool Foam::mpm::bodyNodes::build
 (
     const nodeFolding& folding,
-    const std::vector<scalar>& inverseVolume
+    const std::vector<scalar>& inverseVolume,
+    const bool renewed
 )
 {
     if (numberOf_.size() != grid_.nNodes())
@@ -743,9 +787,14 @@ void Foam::mpm::bodyNodes::build
         numberOf_.setSize(grid_.nNodes());
         numberOf_ = -1;
     }
-    findNodes(inverseVolume);
+
+    // Bodies move between the same nodes for many steps
+    const bool others = findIds(inverseVolume) || renewed;
+    if (others) number(inverseVolume);
+    measure();
+    if (others) findNeighbours();
     integrate(folding);
-    findNeighbours();
+    return others;
 }
 
 
@@ -758,6 +807,22 @@ void Foam::mpm::bodyNodes::gather
 ) const
 {
     const lattice& cells = grid_.cells();
+    v.assign(size(), Zero);
+    if (nScalars) w.resize(size());
+    if (!Pstream::parRun())
+    {
+        for (const local& l : local_)
+        {
+            if (!l.gives) continue;
+            const nodeVector& value = field[l.grid];
+            for (label d = 0; d < cells.nDim(); ++d)
+            {
+                v[l.number][cells.axis(d)] = value[d];
+            }
+            if (nScalars) w[l.number] = value[cells.nDim()];
+        }
+        return;
+    }
     const label n = cells.nDim() + nScalars;
     std::vector<scalar> values(size_t(n)*size(), 0);
     for (const local& l : local_)
@@ -769,8 +834,6 @@ void Foam::mpm::bodyNodes::gather
         }
     }
     sum(values);
-    v.assign(size(), Zero);
-    if (nScalars) w.resize(size());
     for (label k = 0; k < size(); ++k)
     {
         const scalar* value = values.data() + size_t(k)*n;

@@ -77,17 +77,33 @@ void Foam::mpm::bodyWall::findFree()
     nodeField<nodeVector> none(grid_.nNodes(), nodeVector{});
     boundary_.constrain(one, true);
     boundary_.constrain(none, false);
+    slaves_.swap(kept);
+    takeFree(one, none);
 
+    // Walls know them of all nodes now, later of active ones
+    if (bodies_.anyMoves())
+    {
+        freeOfWalls_.swap(one);
+        givenByWalls_.swap(none);
+    }
+}
+
+
+void Foam::mpm::bodyWall::takeFree
+(
+    const nodeField<nodeVector>& ofGrid,
+    const nodeField<nodeVector>& givenOfGrid
+)
+{
     std::vector<vector> free, given;
     std::vector<scalar> unused;
-    nodes_.gather(one, 0, free, unused);
-    nodes_.gather(none, 0, given, unused);
+    nodes_.gather(ofGrid, 0, free, unused);
+    nodes_.gather(givenOfGrid, 0, given, unused);
     for (label k = 0; k < nodes_.size(); ++k)
     {
         nodes_[k].free = free[k];
         nodes_[k].given = given[k];
     }
-    slaves_.swap(kept);
 }
 
 
@@ -95,6 +111,15 @@ void Foam::mpm::bodyWall::findSlaves()
 {
     const scalar h = grid_.cells().minSpacing();
     const scalar near = slaveDistance*h;
+
+    // Plates lie along the grid more often than not: at half a cell exactly
+    // rounding must not decide. At the corners of their ends nodes are slaves as
+    // at those of any body, with a normal between both.
+    auto slaved = [&](const bodyNodes::node& node)
+    {
+        const bool thin = bodies_[node.body].thinPlate();
+        return node.phi < (thin ? near - 1e-6*h : near);
+    };
 
     // By the ranks that have the cells of the image points
     struct found
@@ -104,20 +129,29 @@ void Foam::mpm::bodyWall::findSlaves()
     List<DynamicList<scalar>> numbers(Pstream::nProcs());
     DynamicList<scalar>& mine = numbers[Pstream::myProcNo()];
     std::vector<bodyNodes::source> sources;
+    sources_.clear();
+    std::vector<found> places(nodes_.size(), found{-1, 0, 0});
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!(node.phi < near) || !node.faced) continue;
+        if (!slaved(node) || node.buried) continue;
 
         const point image(node.x + (imageDistance*h - node.phi)*node.n);
         nodes_.sourcesOf
         (
             image,
             boundary_.folding(),
-            [&](const label j) { return nodes_[j].phi >= near; },
+            [&](const label j) { return !slaved(nodes_[j]); },
             sources
         );
         if (sources.empty()) continue;
+        if (!Pstream::parRun())
+        {
+            const label first = label(sources_.size());
+            places[k] = {k, first, first + label(sources.size())};
+            sources_.insert(sources_.end(), sources.begin(), sources.end());
+            continue;
+        }
         mine.append(k);
         mine.append(scalar(sources.size()));
         for (const bodyNodes::source& from : sources)
@@ -133,8 +167,6 @@ void Foam::mpm::bodyWall::findSlaves()
         Pstream::scatterList(numbers);
     }
 
-    sources_.clear();
-    std::vector<found> places(nodes_.size(), found{-1, 0, 0});
     for (const DynamicList<scalar>& list : numbers)
     {
         for (label i = 0; i < list.size();)
@@ -170,7 +202,7 @@ void Foam::mpm::bodyWall::findSlaves()
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!(node.phi < near) || !node.faced) continue;
+        if (!slaved(node)) continue;
 
         // Without masters a node moves with the body
         slave s{k, 0, noSlip_[node.body], 0, 0, 0};
@@ -189,6 +221,8 @@ void Foam::mpm::bodyWall::findSlaves()
         slaves_.push_back(s);
     }
     masters_ = isMaster.toc();
+    follows_ = isMaster;
+    for (const slave& s : slaves_) follows_.set(s.number);
 }
 
 
@@ -249,8 +283,8 @@ Foam::vector Foam::mpm::bodyWall::fromMasters
 
 std::vector<Foam::vector> Foam::mpm::bodyWall::bodyParts() const
 {
-    std::vector<vector> parts(slaves_.size());
-    for (size_t i = 0; i < slaves_.size(); ++i)
+    std::vector<vector> parts(slaves_.size(), Zero);
+    for (size_t i = 0; bodies_.anyMoves() && i < slaves_.size(); ++i)
     {
         const bodyMotion& motion =
             bodies_[nodes_[slaves_[i].number].body].motion();
@@ -270,12 +304,11 @@ void Foam::mpm::bodyWall::solve
 )
 {
     // Momentum of the masters
-    std::vector<vector> momentum(nodes_.size(), Zero);
-    for (const label k : masters_) momentum[k] = change[k];
-    for (size_t i = 0; i < slaves_.size(); ++i)
+    std::vector<vector> momentum(nodes_.size());
+    for (const label k : heavyMasters_) momentum[k] = change[k];
+    for (const label i : heavySlaves_)
     {
         const slave& s = slaves_[i];
-        if (!(mass_[s.number] > 0)) continue;
         const vector given
         (
             factor(s, s.r)
@@ -291,22 +324,18 @@ void Foam::mpm::bodyWall::solve
         }
     }
 
-    std::vector<vector> before(nodes_.size());
-    for (label k = 0; k < nodes_.size(); ++k) before[k] = velocity_[k];
-
-    for (const label k : masters_)
+    const std::vector<vector> before(velocity_);
+    for (const label k : heavyMasters_)
     {
         velocity_[k] += inverseMass_[k] & momentum[k];
         velocity_[k] =
             product(nodes_[k].free, velocity_[k]) + nodes_[k].given;
     }
-    for (size_t i = 0; i < slaves_.size(); ++i)
+    for (const label i : heavySlaves_)
     {
         // No point reads what has no mass
         const slave& s = slaves_[i];
         const bodyNodes::node& node = nodes_[s.number];
-        fromBody_[i] = fromBody[i];
-        if (!(mass_[s.number] > 0)) continue;
         vector v(fromBody[i] + fromMasters(s, velocity_));
         if (s.own > 0)
         {
@@ -316,12 +345,12 @@ void Foam::mpm::bodyWall::solve
         }
         velocity_[s.number] = product(node.free, v) + node.given;
     }
+    fromBody_ = fromBody;
     nodes_.scatter(velocity_, nodes.velocity);
 
     // What the nodes did not get, their body did
     auto add = [&](const label k)
     {
-        if (!(mass_[k] > 0)) return;
         const bodyNodes::node& node = nodes_[k];
         const vector lost
         (
@@ -338,8 +367,8 @@ void Foam::mpm::bodyWall::solve
         l.friction += along;
         l.frictionMoment += arm ^ along;
     };
-    for (const label k : masters_) add(k);
-    for (const slave& s : slaves_) add(s.number);
+    for (const label k : heavyMasters_) add(k);
+    for (const label i : heavySlaves_) add(slaves_[i].number);
 }
 
 
@@ -380,9 +409,18 @@ Foam::mpm::bodyWall::bodyWall
 
 void Foam::mpm::bodyWall::place()
 {
-    nodes_.build(boundary_.folding(), boundary_.inverseVolume());
+    put(true);
+}
 
-    findFree();
+
+void Foam::mpm::bodyWall::put(const bool renewed)
+{
+    const bool others = nodes_.build
+    (
+        boundary_.folding(), boundary_.inverseVolume(), renewed
+    );
+    if (renewed) findFree();
+    else if (others) takeFree(freeOfWalls_, givenByWalls_);
     findSlaves();
     fromBody_ = bodyParts();
 }
@@ -434,17 +472,31 @@ void Foam::mpm::bodyWall::press
     auto p = [&](const label k) { return values[4*size_t(k)]; };
     auto m = [&](const label k) { return values[4*size_t(k) + 2]; };
 
+    // From a node to those around, in the order of its neighbours
     const lattice& cells = grid_.cells();
-    bool cyclic = false;
-    for (label d = 0; d < cells.nDim(); ++d)
+    const bool is3D = cells.nDim() == 3;
+    FixedList<vector, 26> way;
+    FixedList<symmTensor, 26> waySqr;
+    label nWays = 0;
+    for (label c = (is3D ? -1 : 0); c <= (is3D ? 1 : 0); ++c)
+    for (label b = -1; b <= 1; ++b)
+    for (label a = -1; a <= 1; ++a)
     {
-        cyclic = cyclic || cells.periodic(d);
+        if (!a && !b && !c) continue;
+        const index3 step{a, b, c};
+        vector& dx = way[nWays];
+        dx = Zero;
+        for (label d = 0; d < cells.nDim(); ++d)
+        {
+            dx[cells.axis(d)] = step[d]*cells.spacing(d);
+        }
+        waySqr[nWays++] = sqr(dx);
     }
     wallForce_.assign(nodes_.size(), Zero);
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!(m(k) > 0) || !(node.V > 0)) continue;
+        if (!(m(k) > 0) || !(node.V > 0) || !(p(k) > 0)) continue;
         const scalar water = values[4*size_t(k) + 1];
         const scalar room = values[4*size_t(k) + 3];
         const scalar beside = room - node.V;
@@ -465,16 +517,8 @@ void Foam::mpm::bodyWall::press
         {
             const label neighbour = nodes_.neighbours(k)[j];
             if (neighbour < 0 || !(m(neighbour) > 0)) continue;
-            vector dx(nodes_[neighbour].x - node.x);
-            for (label d = 0; cyclic && d < cells.nDim(); ++d)
-            {
-                if (!cells.periodic(d)) continue;
-                const label axis = cells.axis(d);
-                const scalar length = cells.nCells(d)*cells.spacing(d);
-                dx[axis] -= length*std::round(dx[axis]/length);
-            }
-            A += m(neighbour)*sqr(dx);
-            b += m(neighbour)*(p(neighbour) - p(k))*dx;
+            A += m(neighbour)*waySqr[j];
+            b += m(neighbour)*(p(neighbour) - p(k))*way[j];
         }
 
         // Of the solved directions only
@@ -505,7 +549,7 @@ void Foam::mpm::bodyWall::press
         {
             R += (R & n)/magSqr(n)*held;
         }
-        if (p(k) > 0) wallForce_[k] = part*R;
+        wallForce_[k] = part*R;
     }
 }
 
@@ -548,9 +592,12 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
         }
     }
 
-    for (slave& s : slaves_)
+    heavySlaves_.clear();
+    for (size_t i = 0; i < slaves_.size(); ++i)
     {
+        slave& s = slaves_[i];
         const bodyNodes::node& node = nodes_[s.number];
+        if (mass_[s.number] > 0) heavySlaves_.push_back(label(i));
         s.own =
             s.first == s.last ? (s.noSlip ? 0 : 1)
           : !s.noSlip && node.smooth && node.phi > -ownDepth*h
@@ -561,10 +608,10 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
     // Masses of the masters, with those of their slaves
     std::vector<tensor> mass(n, Zero);
     for (const label k : masters_) mass[k] = mass_[k]*tensor(I);
-    for (const slave& s : slaves_)
+    for (const label i : heavySlaves_)
     {
+        const slave& s = slaves_[i];
         const scalar m = mass_[s.number];
-        if (!(m > 0)) continue;
         const scalar square = sqr(s.r);
         const vector& n = nodes_[s.number].n;
         const tensor normal(s.noSlip ? tensor(I) : n*n);
@@ -583,10 +630,12 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
                 from.weight*m*withSigns(rr*normal + across, from.sign);
         }
     }
+    heavyMasters_.clear();
     for (const label k : masters_)
     {
         const scalar scale = tr(mass[k]);
         if (!(scale > 0)) continue;
+        heavyMasters_.push_back(k);
         if (grid_.nDim() == 2)
         {
             const label empty = grid_.cells().axis(2);
@@ -643,15 +692,12 @@ void Foam::mpm::bodyWall::react(nodeMotion& nodes)
     nodes_.gather(nodes.velocity, 0, v, unused);
 
     std::vector<vector> change(nodes_.size(), Zero);
-    bitSet follows(nodes_.size());
-    for (const label k : masters_) follows.set(k);
-    for (const slave& s : slaves_) follows.set(s.number);
     const std::vector<vector> fromBody(bodyParts());
     bool changed = fromBody != fromBody_;
     for (label k = 0; k < nodes_.size(); ++k)
     {
         if (!(mass_[k] > 0)) continue;
-        if (!follows.test(k)) velocity_[k] = v[k];
+        if (!follows_.test(k)) velocity_[k] = v[k];
         else if (v[k] != velocity_[k])
         {
             change[k] = mass_[k]*(v[k] - velocity_[k]);
@@ -761,6 +807,7 @@ void Foam::mpm::bodyWall::findLoads
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
+        if (wallForce_[k] == vector::zero) continue;
         loads_[node.body].force -= wallForce_[k];
         loads_[node.body].moment -=
             (node.x - bodies_[node.body].motion().centre()) ^ wallForce_[k];
@@ -774,7 +821,8 @@ size_t Foam::mpm::bodyWall::memory() const
         nodes_.memory() + sizeof(slave)*slaves_.capacity()
       + sizeof(bodyNodes::source)*sources_.capacity()
       + size_t(nodes_.size())
-       *(sizeof(scalar) + 4*sizeof(vector) + sizeof(tensor));
+       *(sizeof(scalar) + 4*sizeof(vector) + sizeof(tensor))
+      + sizeof(nodeVector)*(freeOfWalls_.size() + givenByWalls_.size());
 }
 
 // ************************************************************************* //

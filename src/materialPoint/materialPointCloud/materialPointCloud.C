@@ -237,7 +237,7 @@ void Foam::mpm::materialPointCloud::setCell
 }
 
 
-inline void Foam::mpm::materialPointCloud::findView(const label p)
+void Foam::mpm::materialPointCloud::findView(const label p)
 {
     const label cell = points_.cell()[p];
     if (grid_.plateOf(cell) < 0) return;

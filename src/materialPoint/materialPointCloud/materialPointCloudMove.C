@@ -54,7 +54,7 @@ void Foam::mpm::materialPointCloud::forNearGroups(const Op& op)
 }
 
 
-void Foam::mpm::materialPointCloud::putOutOfBodies()
+void Foam::mpm::materialPointCloud::putOutOfBodies(std::vector<label>& turned)
 {
     const bitSet& nearCells = leader().nearBodies();
     const lattice& cells = grid_.cells();
@@ -64,24 +64,43 @@ void Foam::mpm::materialPointCloud::putOutOfBodies()
     const label* cell = points_.cell();
     const size_t nMovers = movers_.size();
 
+    // As position(), of many points
+    const scalar* column[3];
+    label axis[3];
+    for (label d = 0; d < nDim; ++d)
+    {
+        column[d] = x(d);
+        axis[d] = cells.axis(d);
+    }
+    point place(Zero);
+    if (nDim == 2) place[cells.axis(2)] = cells.midPlane();
+
     if (nearGroup_.empty()) findNearGroups();
     auto putOut = [&](const label p)
     {
         if (!nearCells.test(cell[p])) return;
-        point at(position(p));
+        point at(place);
+        for (label d = 0; d < nDim; ++d) at[axis[d]] = column[d][p];
 
         // Beside a plate the side is that from which it comes: its tile and cell
         // are still those of the step
         const label thin = grid_.plateOf(cell[p]);
         const label view =
             thin < 0 ? label(plate::none) : tiles.viewOf(points_.tile()[p]);
-        if (view != plate::none && grid_.plates()[thin].inSpan(at))
+        const scalar before =
+            view == plate::none
+          ? GREAT : grid_.plates()[thin].beforeFace(at, view);
+        if (before < GREAT)
         {
-            if (!grid_.plates()[thin].passed(at, view)) return;
+            if (before >= 0) return;
             at = grid_.plates()[thin].returned(at, view, 1e-6*h);
         }
         else
         {
+            if (thin >= 0 && grid_.plates()[thin].viewAt(at) != view)
+            {
+                turned.push_back(p);
+            }
             scalar phi;
             const label b = bodies_->nearest(at, phi);
             if (!(phi < 0)) return;
@@ -443,13 +462,14 @@ void Foam::mpm::materialPointCloud::enter
 
 void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 {
+    std::vector<label> turned;
     if (bodies_)
     {
         cost_.start("bodies: points put out");
 
         // What is near follows the bodies
         if (bodies_->anyMoves()) nearGroup_.clear();
-        putOutOfBodies();
+        putOutOfBodies(turned);
     }
     cost_.start("relocate and sort");
 
@@ -475,9 +495,17 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         if (departures.size() || size() != nPoints || open_.valid())
         {
             findNearGroups();
+            updateViews();
         }
-        else findNearGroups(moved);
-        updateViews();
+        else
+        {
+            findNearGroups(moved);
+            if (grid_.plated())
+            {
+                for (const label p : moved) findView(p);
+                for (const label p : turned) findView(p);
+            }
+        }
     }
 
     ++stepCount_;

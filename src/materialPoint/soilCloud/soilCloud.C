@@ -45,19 +45,24 @@ Foam::mpm::soilPoints Foam::mpm::soilCloud::modelPoints
 }
 
 
+Foam::scalar Foam::mpm::soilCloud::pressure(const label p) const
+{
+    scalar sum = 0;
+    for (label d = 0; d < 3; ++d) sum -= points_.column(sigma_ + d)[p]/3;
+    return sum;
+}
+
+
 void Foam::mpm::soilCloud::findWaveSpeed()
 {
     waveSpeedSqr_ = 0;
     minVoidRatio_ = GREAT;
     for (label p = 0; p < size(); ++p)
     {
-        scalar pressure = 0;
-        for (label d = 0; d < 3; ++d)
-        {
-            pressure -= points_.column(sigma_ + d)[p]/3;
-        }
-        waveSpeedSqr_ =
-            max(waveSpeedSqr_, model_->waveSpeedSqr(pressure, voidRatio()[p]));
+        waveSpeedSqr_ = max
+        (
+            waveSpeedSqr_, model_->waveSpeedSqr(pressure(p), voidRatio()[p])
+        );
         minVoidRatio_ = min(minVoidRatio_, voidRatio()[p]);
     }
 }
@@ -240,7 +245,7 @@ void Foam::mpm::soilCloud::addBodies(const bodies& all)
 
 void Foam::mpm::soilCloud::placeBodies()
 {
-    if (contact_.valid()) contact_->place();
+    if (contact_.valid()) contact_->move();
 }
 
 
@@ -280,8 +285,52 @@ void Foam::mpm::soilCloud::finishNodes(const scalar deltaT)
         const scalar lengths = 25*grid_.cells().minSpacing();
         const scalar c = waveSpeed();
         contact_->setMemory(c > 0 ? lengths/c : deltaT);
+        if (grid_.plated()) findSideMemories(lengths, deltaT);
     }
     materialPointCloud::finishNodes(deltaT);
+}
+
+
+void Foam::mpm::soilCloud::findSideMemories
+(
+    const scalar lengths,
+    const scalar deltaT
+)
+{
+    // The largest speed on one side is nothing that the other one may know
+    const nodeTiles& tiles = boundary_.tiles();
+    const size_t nSides = 2*grid_.plates().size();
+    scalarList largest(label(nSides), scalar(0));
+    scalarList leastVoid(label(nSides), -GREAT);
+    for (const soilCloud* soil : skeleton_->clouds())
+    {
+        const label* tile = soil->points_.tile();
+        const label* cell = soil->points_.cell();
+        for (label p = 0; p < soil->size(); ++p)
+        {
+            const label view = tiles.viewOf(tile[p]);
+            if (view == plate::none) continue;
+            const label side = 2*grid_.plateOf(cell[p]) + view - plate::front;
+            const scalar e = soil->voidRatio()[p];
+            largest[side] = max
+            (
+                largest[side], soil->model_->waveSpeedSqr(soil->pressure(p), e)
+            );
+            leastVoid[side] = max(leastVoid[side], -e);
+        }
+    }
+    Pstream::listCombineGather(largest, maxEqOp<scalar>());
+    Pstream::listCombineScatter(largest);
+    Pstream::listCombineGather(leastVoid, maxEqOp<scalar>());
+    Pstream::listCombineScatter(leastVoid);
+
+    std::vector<scalar> times(nSides);
+    for (size_t side = 0; side < nSides; ++side)
+    {
+        const scalar c = waveSpeed(largest[side], -leastVoid[side]);
+        times[side] = c > 0 ? lengths/c : deltaT;
+    }
+    contact_->setMemory(times);
 }
 
 
@@ -423,8 +472,19 @@ Foam::scalar Foam::mpm::soilCloud::waveSpeed() const
     // Undrained, the liquid in the pores stiffens the skeleton. The stiffest
     // and the densest point may be on different ranks: together they limit the
     // step, or it would depend on the decomposition
-    scalar waveSpeedSqr = skeleton_->global().waveSpeedSqr;
-    const scalar voidRatio = skeleton_->global().minVoidRatio;
+    return waveSpeed
+    (
+        skeleton_->global().waveSpeedSqr, skeleton_->global().minVoidRatio
+    );
+}
+
+
+Foam::scalar Foam::mpm::soilCloud::waveSpeed
+(
+    scalar waveSpeedSqr,
+    const scalar voidRatio
+) const
+{
     const bool empty = !(voidRatio < GREAT);
 
     // As the nodes have it

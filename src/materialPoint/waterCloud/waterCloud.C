@@ -900,6 +900,7 @@ void Foam::mpm::waterCloud::pressAtBodies()
     const std::vector<scalar>& inverseVolume = boundary_.inverseVolume();
     for (const bodyNodes::local& l : near)
     {
+        if (!wall_->presses(l)) continue;
         const label i = l.grid;
         const nodeVector force(wall_->wallForce(l));
         if
@@ -917,7 +918,7 @@ void Foam::mpm::waterCloud::pressAtBodies()
 
 void Foam::mpm::waterCloud::placeBodies()
 {
-    wall_->place();
+    wall_->move();
 }
 
 

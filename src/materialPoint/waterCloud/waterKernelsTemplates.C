@@ -59,14 +59,10 @@ class waterKernelsFor
     //- Offsets to the neighbours of a node
     std::vector<label> neighbours_;
 
-    //- Nodes that a thin plate parts, and those around as they see them; none
-    //  without plates
-    struct platedNode
-    {
-        label own;
-        std::vector<label> around;
-    };
-    std::vector<platedNode> plated_;
+    //- Nodes that a thin plate parts, and for each those around as it sees them;
+    //  none without plates
+    std::vector<label> plated_;
+    std::vector<label> aroundPlated_;
 
     //- With pressureQuadrature cells; else empty
     cellQuadrature<Shape, dim> cells_;
@@ -161,10 +157,10 @@ class waterKernelsFor
             {
                 continue;
             }
-            platedNode here{node, {}};
+            plated_.push_back(node);
             for (const label offset : neighbours_)
             {
-                here.around.push_back
+                aroundPlated_.push_back
                 (
                     grid.seen
                     (
@@ -172,7 +168,6 @@ class waterKernelsFor
                     )
                 );
             }
-            plated_.push_back(here);
         }
     }
 
@@ -273,16 +268,17 @@ class waterKernelsFor
                 }
             }
         );
-        for (const platedNode& node : plated_)
+        const label* around = aroundPlated_.data();
+        for (const label node : plated_)
         {
-            if (!c.order_.nodes().test(node.own)) continue;
-            scalar most = S[node.own], least = S[node.own];
-            for (const label i : node.around)
+            const label* end = around + neighbours_.size();
+            scalar most = S[node], least = S[node];
+            for (; around != end; ++around)
             {
-                most = max(most, S[i]);
-                if (inverseVolume[i] > 0) least = min(least, S[i]);
+                most = max(most, S[*around]);
+                if (inverseVolume[*around] > 0) least = min(least, S[*around]);
             }
-            set(node.own, S[node.own], most, least);
+            if (c.order_.nodes().test(node)) set(node, S[node], most, least);
         }
         if constexpr (!correction) return;
 
