@@ -501,13 +501,20 @@ void Foam::mpm::backgroundGrid::findSeconds()
 
 void Foam::mpm::backgroundGrid::buildExchange()
 {
+    // Candidates of one rank are images in cyclic directions
+    bool copies = Pstream::parRun();
+    for (label d = 0; d < nDim(); ++d)
+    {
+        copies = copies || lattice_->periodic(d);
+    }
+
     // Nodes in reach of own cells, and their neighbours
     bitSet used(nBoxNodes());
     const label lo = min(reachStart_, label(0)) - 1;
     const label hi = max(reachStart_ + reachWidth_ - 1, label(1)) + 1;
     const bool is3D = nDim() == 3;
 
-    forAll(boxCell_, celli)
+    for (label celli = 0; copies && celli < boxCell_.size(); ++celli)
     {
         for (label k = (is3D ? lo : 0); k <= (is3D ? hi : 0); ++k)
         for (label j = lo; j <= hi; ++j)
@@ -619,6 +626,16 @@ void Foam::mpm::backgroundGrid::rebuild()
     findTwins();
     findSeconds();
     buildExchange();
+    cellsKept_ = false;
+}
+
+
+void Foam::mpm::backgroundGrid::renewRecords()
+{
+    share_.clear();
+    findSeconds();
+    buildExchange();
+    cellsKept_ = true;
 }
 
 

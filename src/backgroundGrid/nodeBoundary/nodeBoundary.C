@@ -107,6 +107,10 @@ void Foam::mpm::nodeBoundary::rebuild
     constraints_.clear();
     inflows_.clear();
 
+    // What open inlets made of the folding is theirs
+    const bool kept =
+        grid_.cellsKept() && folding_.valid() && inlets.empty()
+     && inlets_.empty();
     inlets_ = inlets;
     kind_ = makeWalls();
     nodeWalls_ = kind_.found(cellSides::nodeWall);
@@ -115,7 +119,8 @@ void Foam::mpm::nodeBoundary::rebuild
     const cellSides sides(grid_, U_, kind_, zones);
     const wallNodes walls(grid_, sides);
     beyondOpening_ = sides.beyondOpenings();
-    folding_.reset(new nodeFolding(grid_, sides, nodeWalls_));
+    if (kept) folding_->renewViews(nodeWalls_);
+    else folding_.reset(new nodeFolding(grid_, sides, nodeWalls_));
     if (nodeWalls_) folding_->keepWalls(walls.single());
 
     constraints_.append(new mirrorWall(grid_));
@@ -128,8 +133,17 @@ void Foam::mpm::nodeBoundary::rebuild
     for (nodeConstraint& c : constraints_) c.build(walls);
     activate(bitSet(grid_.nNodes(), true));
 
-    tiles_.reset(new nodeTiles(*folding_, zones));
-    findControlVolumes();
+    if (kept)
+    {
+        tiles_->renewViews();
+        inverseVolume_.resize(grid_.nNodes());
+        grid_.copyToSeconds(inverseVolume_);
+    }
+    else
+    {
+        tiles_.reset(new nodeTiles(*folding_, zones));
+        findControlVolumes();
+    }
     setLiquid(rho_, nu_);
     for (nodeConstraint* c : further_) c->place();
     if (recorded_) record();

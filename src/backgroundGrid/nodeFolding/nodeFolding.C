@@ -227,6 +227,20 @@ void Foam::mpm::nodeFolding::addViews(const label cell, const bool nodeWalls)
 }
 
 
+void Foam::mpm::nodeFolding::addViews(const bool nodeWalls)
+{
+    if (!grid_.plated()) return;
+
+    viewStencil_.setSize(2*grid_.nBoxNodes());
+    viewStencil_ = -1;
+    for (label celli = 0; celli < grid_.mesh().nCells(); ++celli)
+    {
+        const label cell = grid_.boxCell(celli);
+        if (grid_.plateOf(cell) >= 0) addViews(cell, nodeWalls);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::nodeFolding::nodeFolding
@@ -252,18 +266,28 @@ Foam::mpm::nodeFolding::nodeFolding
     {
         addStencil(sides, celli, nodeWalls, folds);
     }
-    if (!grid.plated()) return;
-
-    viewStencil_.setSize(2*grid.nBoxNodes(), -1);
-    for (label celli = 0; celli < grid.mesh().nCells(); ++celli)
-    {
-        const label cell = grid.boxCell(celli);
-        if (grid.plateOf(cell) >= 0) addViews(cell, nodeWalls);
-    }
+    nPlain_ = label(target_.size())/grid.reachSize();
+    addViews(nodeWalls);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::nodeFolding::renewViews(const bool nodeWalls)
+{
+    const size_t n = size_t(nPlain_)*grid_.reachSize();
+    target_.resize(n);
+    ghost_.resize(n);
+    sign_.resize(n);
+    shift_.resize(n);
+    if (nodeWalls)
+    {
+        wall_.resize(n);
+        wallFactor_.resize(n);
+    }
+    addViews(nodeWalls);
+}
+
 
 Foam::label Foam::mpm::nodeFolding::stencilOfMiddle(const label cell) const
 {

@@ -159,8 +159,25 @@ Foam::mpm::nodeTiles::nodeTiles
 void Foam::mpm::nodeTiles::addViews()
 {
     const backgroundGrid& grid = folding_.grid();
-    viewIndex_.setSize(2*nParts_*grid.nBoxNodes(), -1);
-    for (label node = 0; node < grid.nBoxNodes(); ++node)
+    viewIndex_.setSize(2*nParts_*grid.nBoxNodes());
+    viewIndex_ = -1;
+
+    // Origins of the tiles of cells beside plates: themselves and upper corners
+    bitSet origins(grid.nBoxNodes());
+    for (label cell = 0; cell < grid.nBoxNodes(); ++cell)
+    {
+        if (grid.plateOf(cell) < 0) continue;
+        for (label part = 0; part < nParts_; ++part)
+        {
+            label node = cell;
+            for (label d = 0; d < grid.nDim(); ++d)
+            {
+                node += ((part >> d) & 1)*grid.stride(d);
+            }
+            origins.set(node);
+        }
+    }
+    for (const label node : origins)
     {
         for (const label view : {plate::front, plate::back})
         {
@@ -190,6 +207,14 @@ void Foam::mpm::nodeTiles::addViews()
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::mpm::nodeTiles::renewViews()
+{
+    tiles_.resize(nPlain_);
+    viewOf_.clear();
+    if (folding_.grid().plated()) addViews();
+}
+
 
 std::vector<char> Foam::mpm::nodeTiles::with(const bitSet& nodes) const
 {

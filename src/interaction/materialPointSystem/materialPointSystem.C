@@ -1041,7 +1041,7 @@ void Foam::mpm::materialPointSystem::particlesToGrid()
     if (bodiesMoved_)
     {
         cost_.start("bodies: geometry");
-        if (bodies_->anyPlateMoves() && grid_.recordsStale()) rebuild();
+        if (bodies_->anyPlateMoves() && grid_.recordsStale()) rebuild(true);
         else for (materialPointCloud& cloud : clouds_) cloud.placeBodies();
         cost_.stop();
         bodiesMoved_ = false;
@@ -1094,10 +1094,11 @@ void Foam::mpm::materialPointSystem::gridToParticles()
 }
 
 
-void Foam::mpm::materialPointSystem::rebuild()
+void Foam::mpm::materialPointSystem::rebuild(const bool recordsOnly)
 {
     stepsSinceRebuild_ = 1;
-    grid_.rebuild();
+    if (recordsOnly) grid_.renewRecords();
+    else grid_.rebuild();
     for (materialPointCloud& cloud : clouds_) cloud.rebuild();
     for (phasePair& pair : pairs_) pair.rebuild();
     for (relaxationZone& zone : zones_) zone.place();
