@@ -21,6 +21,7 @@ struct platedScene
     testMesh test;
     dictionary control;
     backgroundGrid grid;
+    tmp<volVectorField> U;
     autoPtr<nodeBoundary> boundary;
 
     static meshPlan plan()
@@ -40,7 +41,7 @@ struct platedScene
             grid.setPlates(plates);
             grid.rebuild();
         }
-        tmp<volVectorField> U(test.velocity({}));
+        U = test.velocity({});
         boundary.reset(new nodeBoundary(grid, U()));
     }
 
@@ -223,4 +224,44 @@ TEST_CASE("plate: a view sees each node once, and all points the same far away")
         equal("places", label(places.size()), 9);
     }
     equal("plate of a cell far away", s.grid.plateOf(s.at(9, 3)), -1);
+}
+
+
+TEST_CASE("plate: what it parts is found again as if it had been there")
+{
+    // It is lifted, goes aside, and down again
+    platedScene moved({upright(4.3, 5, 0.1)});
+    for (const plate& there : {upright(4.3, 6.2, 0.1), upright(6.6, 4.4, 0.1)})
+    {
+        moved.grid.setPlates({there});
+        equal("others", moved.grid.recordsStale(), true);
+        moved.grid.renewRecords();
+        moved.boundary->rebuild({});
+        equal("others, now", moved.grid.recordsStale(), false);
+
+        platedScene made({there});
+        equal("nodes", moved.grid.nNodes(), made.grid.nNodes());
+        label differ = 0, cells = 0;
+        for (label cell = 0; cell < made.grid.nBoxNodes(); ++cell)
+        {
+            differ += moved.grid.plateOf(cell) != made.grid.plateOf(cell);
+            differ += moved.grid.second(cell) != made.grid.second(cell);
+            if (!made.grid.ownCell(cell)) continue;
+            cells += made.grid.plateOf(cell) >= 0;
+            for (const label view : {plate::none, plate::front, plate::back})
+            for (label part = 0; part < 4; ++part)
+            {
+                differ +=
+                    moved.seen(cell, part, view) != made.seen(cell, part, view);
+            }
+        }
+        equal("what differs", differ, 0);
+        atLeast("cells beside it", cells, 20);
+        equal
+        (
+            "control volumes are the same",
+            moved.boundary->inverseVolume() == made.boundary->inverseVolume(),
+            true
+        );
+    }
 }

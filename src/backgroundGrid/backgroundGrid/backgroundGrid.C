@@ -426,12 +426,16 @@ Foam::mpm::backgroundGrid::findPlated()
     std::sort(found.nodes.begin(), found.nodes.end());
 
     // Cells that reach nodes of both sides, or are near
-    const scalar reached = far + std::sqrt(scalar(nDim()))*reachWidth_*h;
+    const label farthest = max(-reachStart_, reachStart_ + reachWidth_ - 1);
     for (const plate& thin : plates_)
     {
+        // By the height of their lower corner
+        scalar both = near;
+        const vector n(cmptMag(thin.normal()));
+        both = max(both, 1.001*farthest*h*(n.x() + n.y() + n.z()));
         auto add = [&](const label cell, const vector& at)
         {
-            if (!ownCell(cell) || thin.farther(at, reached)) return;
+            if (mag(at[2]) > both || !ownCell(cell)) return;
             label p = -1;
             bool sides[3] = {false, false, false};
             for (label t = 0; t < reachSize(); ++t)

@@ -112,13 +112,16 @@ void Foam::mpm::bodyWall::findSlaves()
     const scalar h = grid_.cells().minSpacing();
     const scalar near = slaveDistance*h;
 
-    // Plates lie along the grid more often than not: at half a cell exactly
-    // rounding must not decide. At the corners of their ends nodes are slaves as
-    // at those of any body, with a normal between both.
+    // Plates lie along the grid more often than not: at half a cell exactly all
+    // are slaves, whatever the rounding. At the corners of an end that is wider
+    // than a cell they are, too, as at those of any body; a narrower one is no
+    // surface to the grid, and the flow around it is that of free nodes.
     auto slaved = [&](const bodyNodes::node& node)
     {
-        const bool thin = bodies_[node.body].thinPlate();
-        return node.phi < (thin ? near - 1e-6*h : near);
+        const plate* thin = bodies_[node.body].thinPlate();
+        if (!thin) return node.phi < near;
+        const bool blunt = thin->thickness() > (1 + 1e-6)*h;
+        return node.phi < near + 1e-6*h && (node.faced || blunt);
     };
 
     // By the ranks that have the cells of the image points
@@ -205,7 +208,7 @@ void Foam::mpm::bodyWall::findSlaves()
         if (!slaved(node)) continue;
 
         // Without masters a node moves with the body
-        slave s{k, 0, noSlip_[node.body], 0, 0, 0};
+        slave s{k, 0, noSlip_[node.body], 0, 0, 0, Zero};
         if (places[k].number >= 0)
         {
             s.first = places[k].first;
@@ -218,6 +221,7 @@ void Foam::mpm::bodyWall::findSlaves()
             }
             s.r = max(scalar(-2), min(scalar(1), node.phi/distance));
         }
+        s.factor = factor(s, s.r);
         slaves_.push_back(s);
     }
     masters_ = isMaster.toc();
@@ -277,7 +281,7 @@ Foam::vector Foam::mpm::bodyWall::fromMasters
         const bodyNodes::source& from = sources_[j];
         sum += from.weight*product(from.sign, v[from.node]);
     }
-    return factor(s, s.r) & sum;
+    return s.factor & sum;
 }
 
 
@@ -311,7 +315,7 @@ void Foam::mpm::bodyWall::solve
         const slave& s = slaves_[i];
         const vector given
         (
-            factor(s, s.r)
+            s.factor
           & (
                 change[s.number]
               - mass_[s.number]*(fromBody[i] - fromBody_[i])
@@ -476,7 +480,6 @@ void Foam::mpm::bodyWall::press
     const lattice& cells = grid_.cells();
     const bool is3D = cells.nDim() == 3;
     FixedList<vector, 26> way;
-    FixedList<symmTensor, 26> waySqr;
     label nWays = 0;
     for (label c = (is3D ? -1 : 0); c <= (is3D ? 1 : 0); ++c)
     for (label b = -1; b <= 1; ++b)
@@ -484,13 +487,12 @@ void Foam::mpm::bodyWall::press
     {
         if (!a && !b && !c) continue;
         const index3 step{a, b, c};
-        vector& dx = way[nWays];
+        vector& dx = way[nWays++];
         dx = Zero;
         for (label d = 0; d < cells.nDim(); ++d)
         {
             dx[cells.axis(d)] = step[d]*cells.spacing(d);
         }
-        waySqr[nWays++] = sqr(dx);
     }
     wallForce_.assign(nodes_.size(), Zero);
     for (label k = 0; k < nodes_.size(); ++k)
@@ -510,28 +512,44 @@ void Foam::mpm::bodyWall::press
         );
         if (part <= 0) continue;
 
-        // Gradient by least squares, weighted by mass
-        symmTensor A(Zero);
-        vector b(Zero);
-        for (label j = 0; j < nodes_.nNeighbours(); ++j)
+        // Gradient by least squares, weighted by mass; of the solved directions
+        vector gradient(Zero);
+        if (is3D)
         {
-            const label neighbour = nodes_.neighbours(k)[j];
-            if (neighbour < 0 || !(m(neighbour) > 0)) continue;
-            A += m(neighbour)*waySqr[j];
-            b += m(neighbour)*(p(neighbour) - p(k))*way[j];
+            symmTensor A(Zero);
+            vector b(Zero);
+            for (label j = 0; j < nWays; ++j)
+            {
+                const label neighbour = nodes_.neighbours(k)[j];
+                if (neighbour < 0 || !(m(neighbour) > 0)) continue;
+                A += m(neighbour)*sqr(way[j]);
+                b += m(neighbour)*(p(neighbour) - p(k))*way[j];
+            }
+            if (!(det(A) > 1e-6*pow3(tr(A)))) continue;
+            gradient = inv(A) & b;
         }
-
-        // Of the solved directions only
-        const scalar scale = tr(A);
-        if (!(scale > 0)) continue;
-        if (cells.nDim() == 2)
+        else
         {
-            symmTensor out(Zero);
-            out[cells.axis(2) == 0 ? 0 : cells.axis(2) == 1 ? 3 : 5] = scale;
-            A += out;
+            const label x = cells.axis(0), y = cells.axis(1);
+            scalar Axx = 0, Axy = 0, Ayy = 0, bx = 0, by = 0;
+            for (label j = 0; j < nWays; ++j)
+            {
+                const label neighbour = nodes_.neighbours(k)[j];
+                if (neighbour < 0 || !(m(neighbour) > 0)) continue;
+                const scalar mx = m(neighbour)*way[j][x];
+                const scalar my = m(neighbour)*way[j][y];
+                const scalar dp = p(neighbour) - p(k);
+                Axx += mx*way[j][x];
+                Axy += mx*way[j][y];
+                Ayy += my*way[j][y];
+                bx += mx*dp;
+                by += my*dp;
+            }
+            const scalar det = Axx*Ayy - Axy*Axy;
+            if (!(det > 1e-6*sqr(Axx + Ayy))) continue;
+            gradient[x] = (Ayy*bx - Axy*by)/det;
+            gradient[y] = (Axx*by - Axy*bx)/det;
         }
-        if (!(det(A) > 1e-6*pow3(scale))) continue;
-        const vector gradient(inv(A) & b);
 
         vector R
         (
@@ -603,6 +621,7 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
           : !s.noSlip && node.smooth && node.phi > -ownDepth*h
          && (mass_[s.number]/rho0_ + node.V)*node.inverseVolume > ownFilling
           ? ownPart : 0;
+        s.factor = factor(s, s.r);
     }
 
     // Masses of the masters, with those of their slaves
@@ -616,6 +635,7 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
         const vector& n = nodes_[s.number].n;
         const tensor normal(s.noSlip ? tensor(I) : n*n);
         const tensor across(factor(s, 0));
+        const tensor full(square*normal + across);
         for (label j = s.first; j < s.last; ++j)
         {
             const bodyNodes::source& from = sources_[j];
@@ -624,6 +644,11 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
             (
                 scalar(0), 1 - mass_[from.node]/(thin*cell)
             );
+            if (from.sign == vector::one && (missing == 0 || square >= 1))
+            {
+                mass[from.node] += from.weight*m*full;
+                continue;
+            }
             const scalar rr =
                 square < 1 ? square + (1 - square)*missing : square;
             mass[from.node] +=
@@ -755,7 +780,7 @@ void Foam::mpm::bodyWall::push
             v[s.number] = partOfBody(s, V, Omega);
             const vector given
             (
-                -mass_[s.number]*(factor(s, s.r) & v[s.number])
+                -mass_[s.number]*(s.factor & v[s.number])
             );
             for (label j = s.first; j < s.last; ++j)
             {

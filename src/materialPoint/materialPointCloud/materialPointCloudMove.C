@@ -462,21 +462,20 @@ void Foam::mpm::materialPointCloud::enter
 
 void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
 {
-    std::vector<label> turned;
+    std::vector<label> moved;
     if (bodies_)
     {
         cost_.start("bodies: points put out");
 
         // What is near follows the bodies
         if (bodies_->anyMoves()) nearGroup_.clear();
-        putOutOfBodies(turned);
+        putOutOfBodies(moved);
     }
     cost_.start("relocate and sort");
 
     std::vector<departure> departures;
     bool inactive = false;
-    std::vector<label> moved;
-    if (bodies_) moved = movers_;
+    if (bodies_) moved.insert(moved.end(), movers_.begin(), movers_.end());
     findDepartures(deltaT, departures, inactive);
     const label nPoints = size();
     migrate(departures, inactive);
@@ -500,11 +499,7 @@ void Foam::mpm::materialPointCloud::relocate(const scalar deltaT)
         else
         {
             findNearGroups(moved);
-            if (grid_.plated())
-            {
-                for (const label p : moved) findView(p);
-                for (const label p : turned) findView(p);
-            }
+            if (grid_.plated()) for (const label p : moved) findView(p);
         }
     }
 

@@ -268,17 +268,20 @@ class waterKernelsFor
                 }
             }
         );
-        const label* around = aroundPlated_.data();
-        for (const label node : plated_)
+        // No point reads what has no mass
+        for (size_t k = 0; k < plated_.size(); ++k)
         {
-            const label* end = around + neighbours_.size();
+            const label node = plated_[k];
+            if (!(nodes.mass(node) > 0)) continue;
+            const label* around = aroundPlated_.data() + k*neighbours_.size();
             scalar most = S[node], least = S[node];
-            for (; around != end; ++around)
+            for (size_t j = 0; j < neighbours_.size(); ++j)
             {
-                most = max(most, S[*around]);
-                if (inverseVolume[*around] > 0) least = min(least, S[*around]);
+                const label i = around[j];
+                most = max(most, S[i]);
+                if (inverseVolume[i] > 0) least = min(least, S[i]);
             }
-            if (c.order_.nodes().test(node)) set(node, S[node], most, least);
+            set(node, S[node], most, least);
         }
         if constexpr (!correction) return;
 
