@@ -247,6 +247,10 @@ def effectRows():
             **points, "turbulence": "kEpsilon",
             "kEpsilonCoeffs": {"k": 1e-3, "epsilon": 1e-3}}},
          {"water": points}),
+        ("realizableKE", {"water": {
+            **points, "turbulence": "realizableKE",
+            "realizableKECoeffs": {"k": 1e-3, "epsilon": 1e-3}}},
+         {"water": points}),
         ("energy, each 10 steps", {"functions": functions(10, energy=True)},
          {}),
         ("front, gauge, balance, each 10", {"functions": functions(10)}, {}),
@@ -284,7 +288,13 @@ def effectRows():
 def idleRows():
     """The same; None: without is what the two clouds cost alone"""
     dry = apart()
+    # Nothing moves: all rates of strain are zero
+    rest = still(g=(0, 0, 0), fluid={"soundSpeed": 10})
+    rest.regions = {"pond": box((0, 0), (0.5, 0.2))}
     return [
+        ("Smagorinsky: water at rest",
+         changed(rest, water={"turbulence": "Smagorinsky", "transfer": "APIC"}),
+         rest),
         ("coupling: soil far from the water", dry, None),
         ("drag: soil far from the water", dry,
          changed(dry, interaction={"drag": "none"})),

@@ -102,7 +102,8 @@ def testEmptyCells(tmp_path, figures):
     ("coupling: soil far from the water", 3, 5),
     ("open boundaries: no flow", 3, 5),
     ("soil: energy, not due", 3, 5),
-    ("cap of the stiffness: not reached", 3, 5)])
+    ("cap of the stiffness: not reached", 3, 5),
+    ("Smagorinsky: water at rest", 3, 8)])
 def testIdle(tmp_path, figures, name, coarser, bound):
     """An effect that is on but has nothing to do"""
     on, off = next(row[1:] for row in effects.idleRows() if row[0] == name)

@@ -12,5 +12,6 @@
 #include "../turbulence/wallDistance/wallDistance.C"
 #include "../turbulence/mixingLength/mixingLength.C"
 #include "../turbulence/Smagorinsky/Smagorinsky.C"
+#include "../turbulence/twoEquation/twoEquation.C"
 #include "../turbulence/kEpsilon/kEpsilon.C"
 #include "../turbulence/realizableKE/realizableKE.C"

@@ -243,6 +243,9 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
     if (turbulence_.valid())
     {
         turbulenceModel::points p{};
+        p.deltaT = deltaT;
+        p.nu = fluid_.mu()/fluid_.rho0();
+        p.kernels = kernels_.get();
         p.n = size();
         p.cell = points_.cell();
         for (label d = 0; d < grid_.nDim(); ++d)
@@ -268,8 +271,7 @@ void Foam::mpm::waterCloud::correctViscosity(const scalar deltaT)
             p.bedDistance = bedDistance_.data();
             p.bedFrictionVelocity = bedFrictionVelocity_.data();
         }
-        turbulence_->correct
-            (deltaT, fluid_.mu()/fluid_.rho0(), p, *kernels_, nut);
+        turbulence_->correct(p, nut);
     }
     findMaxViscosity();
     cost_.stop();
@@ -629,7 +631,8 @@ Foam::mpm::waterCloud::waterCloud
     viscosity_(viscosityModel::New(dict, control.strictKeywords)),
     turbulence_
     (
-        turbulenceModel::New(dict, grid, U_, points_, control.strictKeywords)
+        turbulenceModel::New
+            (dict, {grid, U_, points_, control.strictKeywords})
     ),
     inStages_
     (

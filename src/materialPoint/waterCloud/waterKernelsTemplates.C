@@ -495,33 +495,60 @@ class waterKernelsFor
     }
 
     //- The rates of points that start or entered, which have none of the step
-    //  before: with none a liquid that yields would be stiff for a step
+    //  before: with none a liquid that yields would be stiff for a step. Zero
+    //  is no rate, or that of rest: where no node moves nothing has another.
     void startShearRates()
     {
         waterCloud& c = cloud_;
-        scalar* rate = c.points_.column(c.nut_ + 1);
-        const auto end = rate + c.size();
-        if (std::find(rate, end, 0) == end) return;
+        const scalar* rate = c.points_.column(c.nut_ + 1);
+        const scalar* const end = rate + c.size();
+        const scalar* first = std::find(rate, end, 0);
+        if (first == end || !moves()) return;
 
-        waterMaterial<dim, true> m(makeMaterial<true>(0));
-        kernels_.gradientsToPoints
-        (
-            c.view<dim>(),
-            c.nodes_.velocity,
-            [&]
+        const waterMaterial<dim, true> m(makeMaterial<true>(0));
+        pointView<dim> points(c.view<dim>());
+        while (first != end)
+        {
+            const auto isRate = [](const scalar r) { return r != 0; };
+            const scalar* const next = std::find_if(first, end, isRate);
+            points.n = next - rate;
+            kernels_.gradientsToPoints
             (
-                const label p,
-                const laneMask& valid,
-                const lanes (&L)[dim + 1][dim]
-            )
+                points,
+                first - rate,
+                c.nodes_.velocity,
+                [&]
+                (
+                    const label p,
+                    const laneMask& valid,
+                    const lanes (&)[dim + 1],
+                    const lanes (&L)[dim + 1][dim]
+                )
+                {
+                    lanes s[dim][dim];
+                    twiceDeviator<dim>(L, s);
+                    m.setRates(p, valid, L, s);
+                }
+            );
+            first = std::find(next, end, 0);
+        }
+    }
+
+    //- Has any node a velocity
+    bool moves()
+    {
+        bool any = false;
+        this->forActiveNodes
+        (
+            [&](const label i)
             {
-                const laneMask starts =
-                    valid & (loadLanes(rate + p) == lanes{});
-                lanes s[dim][dim];
-                twiceDeviator<dim>(L, s);
-                m.setRates(p, starts, L, s);
+                for (int d = 0; d < dim; ++d)
+                {
+                    any = any || cloud_.nodes_.velocity[i][d] != 0;
+                }
             }
         );
+        return any;
     }
 
     //- As accelerate(), with the viscous stress in stages: see waterCloud. With

@@ -3,8 +3,8 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "listed.H"
 #include "transferScheme.H"
+#include "selected.H"
 #include <utility>
 
 namespace Foam
@@ -30,16 +30,11 @@ Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
         cloudDict.lookupOrDefault<word>("transfer", defaultScheme)
     );
 
-    auto found = dictionaryConstructorTablePtr_->cfind(name);
-
-    if (!found.found())
-    {
-        FatalIOErrorInFunction(cloudDict)
-            << "keyword transfer: unknown transfer scheme " << name << nl
-            << "    Valid names: "
-            << listed(dictionaryConstructorTablePtr_->sortedToc())
-            << exit(FatalIOError);
-    }
+    const auto made = selected
+    (
+        *dictionaryConstructorTablePtr_, cloudDict, "transfer",
+        "transfer scheme", name
+    );
 
     // The rate of another scheme would be ignored in silence
     const std::pair<const char*, const char*> rates[] =
@@ -58,7 +53,7 @@ Foam::autoPtr<Foam::mpm::transferScheme> Foam::mpm::transferScheme::New
         }
     }
 
-    return found()(cloudDict, defaultRate);
+    return made(cloudDict, defaultRate);
 }
 
 // ************************************************************************* //

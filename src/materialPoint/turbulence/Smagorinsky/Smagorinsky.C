@@ -23,36 +23,27 @@ namespace mpm
 Foam::mpm::Smagorinsky::Smagorinsky
 (
     const dictionary& coeffs,
-    const backgroundGrid& grid,
-    const volVectorField& U,
-    pointStorage& storage,
-    const bool strictKeywords
+    const scene& s
 )
 :
     lengthSqr_(0)
 {
-    checkKeywords(coeffs, {"Ck", "Ce"}, strictKeywords);
+    checkKeywords(coeffs, {"Ck", "Ce"}, s.strictKeywords);
     const scalar Ck =
         readBoundedOrDefault(coeffs, "Ck", dimless, 0.094, 0, GREAT);
     const scalar Ce =
         readBoundedOrDefault(coeffs, "Ce", dimless, 1.048, 0, GREAT);
 
     scalar volume = 1;
-    for (label d = 0; d < grid.nDim(); ++d) volume *= grid.cells().spacing(d);
-    lengthSqr_ = Ck*std::sqrt(Ck/Ce)*std::pow(volume, 2.0/grid.nDim());
+    const label nDim = s.grid.nDim();
+    for (label d = 0; d < nDim; ++d) volume *= s.grid.cells().spacing(d);
+    lengthSqr_ = Ck*std::sqrt(Ck/Ce)*std::pow(volume, 2.0/nDim);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::mpm::Smagorinsky::correct
-(
-    const scalar deltaT,
-    const scalar nu,
-    const points& p,
-    cloudKernels& kernels,
-    scalar* nut
-)
+void Foam::mpm::Smagorinsky::correct(const points& p, scalar* nut)
 {
     for (label i = 0; i < p.n; ++i)
     {

@@ -21,10 +21,7 @@ namespace mpm
 Foam::mpm::mixingLength::mixingLength
 (
     const dictionary& coeffs,
-    const backgroundGrid& grid,
-    const volVectorField& U,
-    pointStorage& storage,
-    const bool strictKeywords
+    const scene& s
 )
 :
     kappa_(readBoundedOrDefault(coeffs, "kappa", dimless, 0.41, 0, 1)),
@@ -35,9 +32,9 @@ Foam::mpm::mixingLength::mixingLength
             coeffs, "maxLength", dimLength, GREAT, 0, GREAT, false, true
         )
     ),
-    walls_(grid, U)
+    walls_(s.grid, s.U)
 {
-    checkKeywords(coeffs, {"kappa", "maxLength"}, strictKeywords);
+    checkKeywords(coeffs, {"kappa", "maxLength"}, s.strictKeywords);
     if (!walls_.any())
     {
         FatalErrorInFunction
@@ -52,14 +49,7 @@ Foam::mpm::mixingLength::mixingLength
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::mpm::mixingLength::correct
-(
-    const scalar deltaT,
-    const scalar nu,
-    const points& p,
-    cloudKernels& kernels,
-    scalar* nut
-)
+void Foam::mpm::mixingLength::correct(const points& p, scalar* nut)
 {
     for (label i = 0; i < p.n; ++i)
     {

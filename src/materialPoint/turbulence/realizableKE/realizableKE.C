@@ -23,18 +23,10 @@ namespace mpm
 Foam::mpm::realizableKE::realizableKE
 (
     const dictionary& coeffs,
-    const backgroundGrid& grid,
-    const volVectorField& U,
-    pointStorage& storage,
-    const bool strictKeywords
+    const scene& s
 )
 :
-    kEpsilon
-    (
-        coeffs, grid, U, storage, strictKeywords,
-        {0.09, 1.44, 1.9, 1.0, 1.2},
-        {"A0"}
-    ),
+    twoEquation(coeffs, s, {0.09, 1.9, 1.0, 1.2}, {"A0"}),
     A0_(readBoundedOrDefault(coeffs, "A0", dimless, 4.0, 0, GREAT))
 {}
 
@@ -85,16 +77,9 @@ Foam::scalar Foam::mpm::realizableKE::decay
 }
 
 
-void Foam::mpm::realizableKE::correct
-(
-    const scalar deltaT,
-    const scalar nu,
-    const points& p,
-    cloudKernels& kernels,
-    scalar* nut
-)
+void Foam::mpm::realizableKE::correct(const points& p, scalar* nut)
 {
-    advance(*this, deltaT, nu, p, kernels, nut);
+    advance(*this, p, nut);
 }
 
 // ************************************************************************* //

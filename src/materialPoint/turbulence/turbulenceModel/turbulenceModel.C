@@ -5,7 +5,7 @@ License
 
 #include "turbulenceModel.H"
 #include "dictionaryEntries.H"
-#include "listed.H"
+#include "selected.H"
 
 namespace Foam
 {
@@ -21,32 +21,18 @@ namespace mpm
 Foam::autoPtr<Foam::mpm::turbulenceModel> Foam::mpm::turbulenceModel::New
 (
     const dictionary& cloudDict,
-    const backgroundGrid& grid,
-    const volVectorField& U,
-    pointStorage& storage,
-    const bool strictKeywords
+    const scene& s
 )
 {
     const word name(cloudDict.lookupOrDefault<word>("turbulence", "none"));
     if (name == "none") return autoPtr<turbulenceModel>();
 
-    auto found = dictionaryConstructorTablePtr_->cfind(name);
-    if (!found.found())
-    {
-        wordList names(dictionaryConstructorTablePtr_->sortedToc());
-        names.append("none");
-        FatalIOErrorInFunction(cloudDict)
-            << "keyword turbulence: unknown model " << name << nl
-            << "    Valid names: " << listed(names) << exit(FatalIOError);
-    }
-
     // All coefficients of most models have defaults
-    const word coeffs(name + "Coeffs");
-    return found()
+    return selected
     (
-        cloudDict.found(coeffs) ? subDictOf(cloudDict, coeffs) : dictionary(),
-        grid, U, storage, strictKeywords
-    );
+        *dictionaryConstructorTablePtr_, cloudDict, "turbulence", "model", name,
+        {"none"}
+    )(subDictOrEmpty(cloudDict, name + "Coeffs"), s);
 }
 
 // ************************************************************************* //

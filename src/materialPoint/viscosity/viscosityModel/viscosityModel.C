@@ -5,7 +5,7 @@ License
 
 #include "viscosityModel.H"
 #include "dictionaryEntries.H"
-#include "listed.H"
+#include "selected.H"
 
 namespace Foam
 {
@@ -30,16 +30,11 @@ Foam::autoPtr<Foam::mpm::viscosityModel> Foam::mpm::viscosityModel::New
     );
     if (name == "Newtonian") return autoPtr<viscosityModel>();
 
-    auto found = dictionaryConstructorTablePtr_->cfind(name);
-    if (!found.found())
-    {
-        wordList names(dictionaryConstructorTablePtr_->sortedToc());
-        names.append("Newtonian");
-        FatalIOErrorInFunction(cloudDict)
-            << "keyword viscosityModel: unknown model " << name << nl
-            << "    Valid names: " << listed(names) << exit(FatalIOError);
-    }
-    return found()(subDictOf(cloudDict, name + "Coeffs"), strictKeywords);
+    return selected
+    (
+        *dictionaryConstructorTablePtr_, cloudDict, "viscosityModel", "model",
+        name, {"Newtonian"}
+    )(subDictOf(cloudDict, name + "Coeffs"), strictKeywords);
 }
 
 // ************************************************************************* //

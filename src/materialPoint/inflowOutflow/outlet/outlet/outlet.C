@@ -3,8 +3,8 @@ License
     This file is part of mpmFoam, distributed under GPL-3.0-or-later.
 \*---------------------------------------------------------------------------*/
 
-#include "listed.H"
 #include "outlet.H"
+#include "selected.H"
 
 namespace Foam
 {
@@ -33,17 +33,9 @@ Foam::autoPtr<Foam::mpm::outlet> Foam::mpm::outlet::New
 )
 {
     const word type(dict.get<word>("type"));
-    auto found = dictionaryConstructorTablePtr_->cfind(type);
-
-    if (!found.found())
-    {
-        FatalIOErrorInFunction(dict)
-            << "keyword type: unknown outlet " << type << nl
-            << "    Valid names: "
-            << listed(dictionaryConstructorTablePtr_->sortedToc())
-            << exit(FatalIOError);
-    }
-    return found()(name, dict, U, strictKeywords);
+    return selected
+        (*dictionaryConstructorTablePtr_, dict, "type", "outlet", type)
+        (name, dict, U, strictKeywords);
 }
 
 // ************************************************************************* //

@@ -11,13 +11,10 @@ License
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
 template<class Model>
-void Foam::mpm::kEpsilon::advance
+void Foam::mpm::twoEquation::advance
 (
     const Model& model,
-    const scalar deltaT,
-    const scalar nu,
     const points& p,
-    cloudKernels& kernels,
     scalar* nut
 )
 {
@@ -32,19 +29,19 @@ void Foam::mpm::kEpsilon::advance
         epsilon[i] = epsilonIn_;
     }
 
-    react(model, deltaT, nu, p, k, epsilon);
+    react(model, p, k, epsilon);
 
     Dk_.resize(p.n + nLanes);
     Depsilon_.resize(p.n + nLanes);
     for (label i = 0; i < p.n; ++i)
     {
         const scalar eddy = eddyViscosity(model, p, i, k[i], epsilon[i]);
-        Dk_[i] = nu + eddy/sigmak_;
-        Depsilon_[i] = nu + eddy/sigmaEps_;
+        Dk_[i] = p.nu + eddy/sigmak_;
+        Depsilon_[i] = p.nu + eddy/sigmaEps_;
     }
     scalar* const values[2] = {k, epsilon};
     const scalar* const diffusivities[2] = {Dk_.data(), Depsilon_.data()};
-    kernels.diffuse(deltaT, values, diffusivities);
+    p.kernels->diffuse(p.deltaT, values, diffusivities);
 
     for (label i = 0; i < p.n; ++i)
     {
@@ -55,17 +52,17 @@ void Foam::mpm::kEpsilon::advance
 
 
 template<class Model>
-void Foam::mpm::kEpsilon::react
+void Foam::mpm::twoEquation::react
 (
     const Model& model,
-    const scalar deltaT,
-    const scalar nu,
     const points& p,
     scalar* k,
     scalar* epsilon
 ) const
 {
     const scalar h = grid_.cells().minSpacing();
+    const scalar deltaT = p.deltaT;
+    const scalar nu = p.nu;
 
     // Water at rest at a wall has no eddies, and k^2/epsilon must exist: they
     // are then 9e-14 m2/s

@@ -1,6 +1,5 @@
-"""The backward-facing step of liquids.py by OpenFOAM's simpleFoam: the same
-mesh, walls, inlet and model of turbulence, steady. What a model and a grid give
-by themselves."""
+"""Flows of liquids.py by OpenFOAM's simpleFoam: the same mesh, walls, inlets and
+model of turbulence, steady. What a model and a grid give by themselves."""
 
 from caseBuilder import RunningCase, foamText, header
 
@@ -9,38 +8,38 @@ SOLVER = {"solver": "smoothSolver", "smoother": "symGaussSeidel",
           "tolerance": 1e-9, "relTol": 0.1}
 
 
-def fields(U, k, epsilon):
-    """Name -> class, dimensions, value inside, conditions by patch"""
+def fields(inlets, k, epsilon):
+    """Name -> class, dimensions, value inside, conditions by patch. Velocities
+    of the inlets by side; out at xmax; a side ymax that is no inlet is a lid
+    without stress"""
     zero, empty = {"type": "zeroGradient"}, {"type": "empty"}
+    names = ["xmin", "xmax", "ymax", "walls"]
 
-    def field(kind, dims, inside, value, conditions):
-        text = f"uniform {foamText(value)}"
-        return (f"vol{kind}Field", f"[{dims} 0 0 0 0]", f"uniform "
-                f"{foamText(inside)}", {
-                    name: {**c, "value": text, "inletValue": text}
-                    for name, c in conditions.items()})
+    def field(kind, dims, inside, **conditions):
+        text = f"uniform {foamText(inside)}"
+        return (f"vol{kind}Field", f"[{dims} 0 0 0 0]", text, {
+            "frontAndBack": empty, **{name: {
+                "value": text, "inletValue": text, **conditions.get(name, zero)}
+                for name in names}})
 
     def scalar(dims, value, wall):
-        return field("Scalar", dims, value, value, {
-            "xmin": {"type": "fixedValue"}, "xmax": {"type": "inletOutlet"},
-            "ymax": zero, "walls": {"type": wall}, "frontAndBack": empty})
+        return field("Scalar", dims, value, walls={"type": wall},
+                     xmax={"type": "inletOutlet"},
+                     **{side: {"type": "fixedValue"} for side in inlets})
     return {
-        "U": field("Vector", "0 1 -1", (U, 0, 0), (U, 0, 0), {
-            "xmin": {"type": "fixedValue"}, "xmax": zero,
+        "U": field("Vector", "0 1 -1", inlets["xmin"], **{
             "ymax": {"type": "slip"}, "walls": {"type": "noSlip"},
-            "frontAndBack": empty}),
-        "p": field("Scalar", "0 2 -2", 0, 0, {
-            "xmin": zero, "xmax": {"type": "fixedValue"}, "ymax": zero,
-            "walls": zero, "frontAndBack": empty}),
+            **{side: {"type": "fixedValue", "value": f"uniform {foamText(U)}"}
+               for side, U in inlets.items()}}),
+        "p": field("Scalar", "0 2 -2", 0, xmax={"type": "fixedValue"}),
         "k": scalar("0 2 -2", k, "kqRWallFunction"),
         "epsilon": scalar("0 2 -3", epsilon, "epsilonWallFunction"),
-        "nut": field("Scalar", "0 2 -1", 0, 0, {
-            **{side: {"type": "calculated"}
-               for side in ("xmin", "xmax", "ymax")},
-            "walls": {"type": "nutkWallFunction"}, "frontAndBack": empty})}
+        "nut": field("Scalar", "0 2 -1", 0, walls={"type": "nutkWallFunction"},
+                     **{side: {"type": "calculated"}
+                        for side in ("xmin", "xmax", "ymax")})}
 
 
-def solve(path, setup, model, U, k, epsilon, nu):
+def solve(path, setup, model, inlets, k, epsilon, nu):
     """Velocity and k of the cells, by row and column of the mesh"""
     gauss = "bounded Gauss "
     files = {
@@ -78,7 +77,8 @@ def solve(path, setup, model, U, k, epsilon, nu):
                 "RASModel": model, "turbulence": True, "printCoeffs": True}}}
     texts = {name: header(name.split("/")[-1]) + foamText(content)
              for name, content in files.items()}
-    for name, (kind, dims, inside, patches) in fields(U, k, epsilon).items():
+    for name, (kind, dims, inside, patches) in fields(
+            inlets, k, epsilon).items():
         texts[f"0/{name}"] = header(name, kind) + foamText({
             "dimensions": dims, "internalField": inside,
             "boundaryField": patches})
