@@ -8,7 +8,8 @@ import pytest
 
 from caseBuilder import RHO, CaseError, Setup, box, damBreak, hydrostatic
 from liquids import (
-    ASCII, COEFFICIENTS, BedChannel, Channel, MixingLayer, binghamGap, setField)
+    ASCII, COEFFICIENTS, KAPPA, BedChannel, Channel, MixingLayer, binghamGap,
+    setField)
 from test_erosionCriteria import criteria, rows
 from test_parallel import agree
 from test_restart import differing
@@ -106,6 +107,29 @@ def testTurbulenceDecays(tmp_path, figures, turbulence):
             case.times[-1], "water", "k"), edge)()
         figures.atMost(f"{edge}imum of k over theory's, less one",
                        float(abs(found/decayed - 1)), 0.01)
+
+
+@pytest.mark.parametrize("turbulence", COEFFICIENTS)
+def testEddiesAtAWall(tmp_path, figures, turbulence):
+    """Eddies in water that does not flow, half a cell from walls: of u_k =
+    C_mu^(1/4) sqrt(k) only dissipation u_k^3/(kappa y) is left, so that
+    k^-1/2 grows by C_mu^(3/4) t/(2 kappa y). With the k of u* of a flow that is
+    not there they were gone after a step, and a wall jet grew by a fifth too
+    fast"""
+    k, end, h = 1e-2, 0.5, 0.01
+    case = Setup(
+        cells=(8, 2), h=h, points=1, g=(0, 0, 0), energy=False,
+        sides={y: ("wall", {"type": "smoothWall"}) for y in ["ymin", "ymax"]},
+        fluid={"soundSpeed": 10, "mu": 1e-6}, water={
+            "turbulence": turbulence,
+            turbulence + "Coeffs": {"k": k, "epsilon": 0.1}},
+        regions={"all": box((0, 0), (1, 1))}).cyclic("x").until(end).write(
+            tmp_path/"case").prepare()
+    case.solve()
+    left = (k**-0.5 + 0.09**0.75*end/(2*KAPPA*h/2))**-2
+    found = case.case.cloudField(case.times[-1], "water", "k")
+    figures.atMost("k over theory's, less one",
+                   float(abs(found/left - 1).max()), 0.01)
 
 
 def overSand(dim, **entries):

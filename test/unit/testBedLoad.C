@@ -5,6 +5,7 @@ License
 
 #include "figures.H"
 #include "bedLoadModel.H"
+#include "bedWall.H"
 #include <cmath>
 #include <vector>
 
@@ -247,6 +248,18 @@ TEST_CASE("bedLoadModel: selection")
         "coefficients as given: error",
         mag(m->criticalShields() - 0.03) + mag(m->averagingTime() - 2), 0
     );
+}
+
+
+// Nodes at the edge of a point's reach have next to no mass, and may have no
+// velocity at all: a mass times VSMALL is zero then
+TEST_CASE("bedWall: friction on nodes with next to no momentum")
+{
+    CHECK(bedWall::partTaken(0, 0) == 0);
+    CHECK(bedWall::partTaken(0, 1) == 0);
+    CHECK(bedWall::partTaken(1e-10, 2.5e-21*0) == 1);
+    CHECK(bedWall::partTaken(1e-10, 2.5e-21*VSMALL) == 1);
+    CHECK(bedWall::partTaken(1, 3) == 0.25);
 }
 
 // ************************************************************************* //

@@ -108,10 +108,10 @@ Foam::mpm::nodeVector Foam::mpm::waterSoilInteraction::wallImpulse
     const nodeVector along = alongBed(node, dv, speed);
 
     // Against the velocity that is left
-    const scalar x =
-        deltaT*water_.fluid().rho0()*wall_->shear(node)
-       /(mass*max(speed, VSMALL));
-    return mass*(part*(dv - along) + x/(1 + x)*along);
+    const scalar friction = deltaT*water_.fluid().rho0()*wall_->shear(node);
+    return
+        mass
+       *(part*(dv - along) + bedWall::partTaken(friction, mass*speed)*along);
 }
 
 

@@ -68,7 +68,29 @@ void Foam::mpm::twoEquation::react
     // are then 9e-14 m2/s
     constexpr scalar least = 1e-12;
 
-    auto setLaw = [&]
+    const scalar root4Cmu = std::pow(Cmu_, 0.25);
+    auto atWall = [&]
+    (
+        const label i,
+        const scalar frictionVelocity,
+        const scalar y,
+        const scalar ks
+    )
+    {
+        const scalar slope =
+            root4Cmu*std::sqrt(k[i])/(wallLaw::kappa*(y + ks/30));
+        k[i] = max
+        (
+            (k[i] + deltaT*sqr(frictionVelocity)*slope)
+           /(1 + deltaT*std::sqrt(Cmu_)*slope),
+            least
+        );
+        epsilon[i] = max
+        (
+            pow3(root4Cmu*std::sqrt(k[i]))/(wallLaw::kappa*(y + ks/30)), least
+        );
+    };
+    auto atBed = [&]
     (
         const label i,
         const scalar frictionVelocity,
@@ -80,7 +102,6 @@ void Foam::mpm::twoEquation::react
         k[i] = max(sqr(uStar)/std::sqrt(Cmu_), least);
         epsilon[i] = max(pow3(uStar)/(wallLaw::kappa*(y + ks/30)), least);
     };
-
     for (label i = 0; i < p.n; ++i)
     {
         const scalar bedDistance = p.bed ? p.bedDistance[i] : GREAT;
@@ -110,7 +131,7 @@ void Foam::mpm::twoEquation::react
                     speedSqr += sqr(p.v[d][i]);
                 }
                 const scalar ks = walls_.roughness(p.cell[i]);
-                setLaw
+                atWall
                 (
                     i,
                     wallLaw::frictionVelocity(std::sqrt(speedSqr), y, ks, nu),
@@ -122,7 +143,7 @@ void Foam::mpm::twoEquation::react
         }
         if (bedDistance < h && p.bedFrictionVelocity[i] > 0)
         {
-            setLaw
+            atBed
             (
                 i, p.bedFrictionVelocity[i], max(bedDistance, 0.5*h), p.bed->ks
             );
