@@ -24,6 +24,7 @@ EXPLAINED_IN = {
     "src/interaction/waterSoilInteraction": "materialPointProperties",
     "src/backgroundGrid/backgroundGrid": "fvSolution",
     "src/bodies": "materialPointProperties",
+    "src/rigidBodies": "materialPointProperties",
     "src/bodies/closedSurface": "setMaterialPointsDict",
     "src/backgroundGrid/nodeBoundary": "U.water",
     "src/materialPoint/waterCloud": "materialPointProperties",

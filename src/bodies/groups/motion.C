@@ -7,6 +7,5 @@
 #include "../bodyMotion/bodyMotion/bodyMotion.C"
 #include "../bodyMotion/fixed/fixedBody.C"
 #include "../bodyMotion/prescribed/prescribedBody.C"
-#include "../bodyMotion/rigid/rigidMotion.C"
 #include "../body/body.C"
 #include "../body/bodies.C"
