@@ -269,12 +269,22 @@ def standing(end=0.02):
         energy=False).until(end, 0.02)
 
 
-@pytest.mark.parametrize("scene", [turning, drifting, standing])
+def overDryFloor(end=0.04):
+    """A jet runs along the floor below a pipe, where no water was at the start"""
+    return Setup(
+        cells=(40, 20), h=0.02, points=2, wall={"type": "smoothWall"},
+        regions={"jet": box((0, 0), (0.32, 0.06), velocity=(3, 0, 0))},
+        bodies={"pipe": {"type": "fixed",
+                         "surface": cylinder((0.403, 0.117), 0.06)}},
+        energy=False).until(end, 0.02)
+
+
+@pytest.mark.parametrize("scene", [turning, drifting, standing, overDryFloor])
 def testTwoRanks(tmp_path, figures, scene):
     sameOnTwoRanks(figures, scene, tmp_path)
 
 
-@pytest.mark.parametrize("scene", [turning, drifting])
+@pytest.mark.parametrize("scene", [turning, drifting, overDryFloor])
 def testRestart(tmp_path, figures, scene):
     sameAfterRestart(figures, scene, tmp_path)
 

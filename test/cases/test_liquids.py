@@ -204,9 +204,15 @@ def testPositive(tmp_path, figures):
         (e - np.minimum.accumulate(e)).max()/e[0]), 1e-3)
 
 
+# At rest so stiff that its viscosity limits the time step
+STIFF = {"viscosityModel": "HerschelBulkley", "HerschelBulkleyCoeffs": {
+    "tau0": 0.02, "k": 2e-3, "n": 0.6, "nu0": 0.5}}
+
+
+@pytest.mark.parametrize("water", [KEPSILON, STIFF], ids=["kEpsilon", "stiff"])
 @pytest.mark.parametrize("dim", [2, 3])
-def testTwoRunsAreOne(tmp_path, figures, dim):
-    split = damBreak(dim, points=2, water=KEPSILON, wall={
+def testTwoRunsAreOne(tmp_path, figures, dim, water):
+    split = damBreak(dim, points=2, water=water, wall={
         "type": "roughWall", "ks": 1e-3}).steps(20).write(
             tmp_path/"split").prepare()
     whole = split.clone(tmp_path/"whole")
@@ -230,13 +236,22 @@ def testTwoRunsAreOne(tmp_path, figures, dim):
 @pytest.mark.parametrize("dim", [2, 3])
 def testRanksAgree(tmp_path, figures, dim, water):
     setup = damBreak(dim, points=2, water=water, wall={"type": "smoothWall"})
-    # For decomposePar, which does not know the patch
-    setup.control["libs"] = '("libmpmBackgroundGrid.so")'
     serial = setup.steps(60).write(tmp_path/"serial").prepare()
     parallel = serial.clone(tmp_path/"parallel").decompose(2)
     serial.solve()
     parallel.solve(ranks=2)
     agree(figures, parallel, serial)
+
+
+def testFirstStep(tmp_path, figures):
+    """Limited by the viscosity that the liquid has at rest"""
+    h = 0.02
+    case = damBreak(h=h, points=2, water=STIFF).steps(1).write(
+        tmp_path/"case").prepare()
+    case.solve()
+    nu = 0.5 + 1e-3/RHO
+    figures.atMost("first time step over that of explicit diffusion",
+                   case.timeValue(case.times[-1])/(h**2/(4*nu)), 1 + 1e-9)
 
 
 @pytest.mark.parametrize("model", ["BinghamPapanastasiou", "HerschelBulkley"])

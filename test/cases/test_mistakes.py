@@ -287,12 +287,6 @@ MISTAKES = [
                 "type": "frictional", "frictionCoefficient": 0.5})),
     Mistake("missingVelocity", "0.orig not copied to 0", "`0/U.soil`", "error",
             [r"0/U\.soil\W+is missing", r"cp -r 0\.orig 0"], soil, edit=toOrig),
-    Mistake("decomposeFrictional", "`type frictional`, to be decomposed",
-            "`0/U.soil`", "said",
-            [r"0/U\.soil\W+patch walls", "decomposePar",
-             r'libs \("libmpmBackgroundGrid\.so"\)'],
-            lambda: changed(soil(), soilWall={
-                "type": "frictional", "frictionCoefficient": 0.5})),
     Mistake("leftOverCloud", "`clouds (water)`, with a dictionary of soil",
             f"`{PROPERTIES}`: `clouds`", "error",
             [PROPERTIES, "dictionary soil is not used", r"clouds is \(water\)",

@@ -257,10 +257,6 @@ static fileName fill
 
     for (mpm::materialPointCloud& cloud : points.clouds())
     {
-        if (!Pstream::parRun())
-        {
-            mpm::cellDecomposition::checkPatchTypes(mesh, cloud.name());
-        }
         cloud.finishPoints();
         Info<< "Cloud " << cloud.name() << ": " << cloud.globalSize()
             << " points, mass " << cloud.globalMass() << " kg" << nl;

@@ -97,6 +97,9 @@ void Foam::mpm::constrainedWallFvPatchVectorField::write(Ostream& os) const
         const keyType& key = e.keyword();
         if (key != "type" && key != "patchType" && key != "value") os << e;
     }
+
+    // Who does not know the type, as decomposePar, asks for it
+    writeEntry("value", os);
 }
 
 // ************************************************************************* //

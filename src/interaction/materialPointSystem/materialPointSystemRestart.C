@@ -305,7 +305,7 @@ void Foam::mpm::materialPointSystem::read(Time& runTime)
             rebuild();
         }
     }
-    bodiesMoved_ = bodies_.valid();
+    bodiesMoved_ = bodies_.valid() && bodies_->anyMoves();
     for (const materialPointCloud& cloud : clouds_) cloud.checkDigits();
     if (recorded)
     {

@@ -651,7 +651,7 @@ Foam::mpm::waterCloud::waterCloud
     ),
     rotation_(-1),
     bed_(nullptr),
-    maxNut_(0),
+    maxNut_(viscosity_.valid() ? viscosity_->nu(0) : 0),
     globalMaxNut_(0),
     warnedOfScheme_(false),
     p_
@@ -1130,6 +1130,10 @@ void Foam::mpm::waterCloud::readState(const dictionary& dict)
         select();
         transfer_->read(dict);
     }
+    if (stepCount() > 0)
+    {
+        maxNut_ = dict.lookupOrDefault<scalar>("viscosity", maxNut_);
+    }
     if (Pstream::master())
     {
         stressWork_ = dict.lookupOrDefault<scalar>("stressWork", 0);
@@ -1143,6 +1147,10 @@ void Foam::mpm::waterCloud::writeState(dictionary& dict) const
     materialPointCloud::writeState(dict);
 
     dict.set("soundSpeed", fluid_.soundSpeed());
+    if (nut_ >= 0)
+    {
+        dict.set("viscosity", returnReduce(maxNut_, maxOp<scalar>()));
+    }
     dict.set("stressWork", returnReduce(stressWork_, sumOp<scalar>()));
     dict.set("correctionWork", returnReduce(correctionWork_, sumOp<scalar>()));
 }

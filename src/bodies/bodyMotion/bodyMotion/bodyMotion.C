@@ -72,7 +72,7 @@ Foam::autoPtr<Foam::mpm::bodyMotion> Foam::mpm::bodyMotion::New
     if (!dictionaryConstructorTablePtr_->found(asked))
     {
         const_cast<Time&>(cells.mesh().time()).libs().open
-            ("libmpmRigidBodies.so");
+            (fileName("libmpmRigidBodies.so"));
     }
 
     const word type

@@ -9,8 +9,6 @@ License
 #include "dictionaryEntries.H"
 #include "labelIOList.H"
 #include "listed.H"
-#include "localIOdictionary.H"
-#include "volFields.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -155,58 +153,6 @@ void Foam::mpm::cellDecomposition::writeRanks() const
     );
     Info<< nl << "Written " << cellRank.objectPath() << nl << nl << "End\n"
         << endl;
-}
-
-
-void Foam::mpm::cellDecomposition::checkPatchTypes
-(
-    const fvMesh& mesh,
-    const word& cloud
-)
-{
-    const localIOdictionary file
-    (
-        IOobject
-        (
-            "U." + cloud,
-            mesh.time().timeName(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE,
-            false
-        ),
-        volVectorField::typeName
-    );
-    const dictionary& control = mesh.time().controlDict();
-    if
-    (
-        control.found("libs")
-     && control.lookup("libs").toString().find("mpmBackgroundGrid")
-     != std::string::npos
-    )
-    {
-        return;
-    }
-    for (const entry& e : file.subDict("boundaryField"))
-    {
-        if
-        (
-            e.isDict() && !e.dict().found("value")
-         && wordList({"frictional", "smoothWall", "roughWall"}).found
-            (
-                e.dict().lookupOrDefault<word>("type", word::null)
-            )
-        )
-        {
-            const word type(e.dict().get<word>("type"));
-            Info<< "--> " << file.objectPath() << ", patch " << e.keyword()
-                << ": decomposePar does not know the type " << type
-                << " and asks for its value." << nl << "    For it, add"
-                << " libs (\"libmpmBackgroundGrid.so\"); to"
-                << " system/controlDict" << nl << endl;
-            return;
-        }
-    }
 }
 
 // ************************************************************************* //
