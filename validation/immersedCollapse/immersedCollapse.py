@@ -17,9 +17,9 @@ from coupledProblem import PROBLEMS  # noqa: E402
 from mpmfoam import coupled, metrics, reference, study, style  # noqa: E402
 
 
-def collapse(name, h, end, loose=False):
+def collapse(name, h, end, loose=False, changes={}):
     """Dense: 0.042 m at a solid fraction of 0.60; loose: 0.048 m at 0.55"""
-    return study.Run(
+    run = study.Run(
         name, [REPOSITORY/"tutorials"/"immersedCollapse"], study.MPMFOAM,
         {"system/blockMeshDict": {
             "h": h, "nx": round(0.3/h), "ny": round(0.084/h)},
@@ -30,13 +30,36 @@ def collapse(name, h, end, loose=False):
          # Meets the times of the measured profiles
          "system/controlDict": {
              "endTime": end, "writeInterval": 0.22 if loose else 0.25}},
-        about={"h": h, "density": "loose" if loose else "dense"})
+        about={"h": h, "density": "loose" if loose else "dense"},
+        optional=bool(changes))
+    for file, entries in changes.items():
+        run.settings.setdefault(file, {}).update(entries)
+    return run
 
+
+def soil(**entries):
+    return {"constant/materialPointProperties": {
+        f"soil/elastoplasticMuICoeffs/{key}": value
+        for key, value in entries.items()}}
+
+
+# What was guessed or chosen, one at a time; they run when they are named
+VARIATIONS = {
+    "eRef0.754": soil(eRef=0.754), "eRef0.70": soil(eRef=0.70),
+    "Ad1.4": soil(Ad=1.4), "np6nd6": soil(np=6, nd=6), "kp0.0011": soil(kp=0.0011),
+    "phiC25": soil(phiC=25),
+    "c30": {"system/fvSolution": {"MPM/maxSoilSoundSpeed": 30}},
+    "points4": {"system/setMaterialPointsDict": {
+        f"{cloud}/pointsPerDirection": 4 for cloud in ("soil", "water")}},
+    "APIC": {"constant/materialPointProperties": {"soil/transfer": "APIC"}}}
 
 RUNS = [collapse("loose_h0.006", 0.006, 6.6, loose=True),
         collapse("dense_h0.006", 0.006, 18),
         collapse("loose_h0.004", 0.004, 6.6, loose=True),
-        collapse("dense_h0.004", 0.004, 12)]
+        collapse("dense_h0.004", 0.004, 12)] + [
+            collapse(f"{density}_{name}", 0.006, end, density == "loose", changes)
+            for density, end in (("dense", 6), ("loose", 4.4))
+            for name, changes in VARIATIONS.items()]
 
 
 def evaluate(done, results):
@@ -51,7 +74,8 @@ def evaluate(done, results):
             for column, value in zip(rows.values(),
                                      (name, t, front, pressure)):
                 column.append(value)
-    finest = [min((r for r in done.values() if r.about["density"] == density),
+    shown = {name: run for name, run in done.items() if not run.optional}
+    finest = [min((r for r in shown.values() if r.about["density"] == density),
                   key=lambda r: r.about["h"], default=None)
               for density in coupled.RONDON]
     finest = [run for run in finest if run]
@@ -61,7 +85,7 @@ def evaluate(done, results):
         PROBLEMS["immersedCollapse"][1](row, run.case)
         row[0].set_title(f"{run.about['density']}, h = {run.about['h']:g}")
     # The other grids, dashed
-    for run in done.values():
+    for run in shown.values():
         for other, row in zip(finest, panels):
             if run.name != other.name and (
                     run.about["density"] == other.about["density"]):
