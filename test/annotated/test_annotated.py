@@ -157,9 +157,10 @@ def testModels(family, base, name):
     models = [d.name for d in (ROOT/family).iterdir() if d.is_dir()]
     assert len(models) > 2
     for model in models:
-        # The word none is no C++ class name; Ergun is what others have in
-        # common, searchable are the shapes of OpenFOAM
+        # The word none is no C++ class name; Ergun and twoEquation are what
+        # others have in common, searchable are the shapes of OpenFOAM
         word = {"noDrag": "none", "noBedLoad": "none", "Ergun": base,
+                "twoEquation": base,
                 "searchable": "sphere",
                 "wallDistance": "roughWall"}.get(model, model)
         if model != base and word != base:
