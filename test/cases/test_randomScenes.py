@@ -1,5 +1,5 @@
 """Valid entries of all kinds together, at random: twelve of the many scenes of
-validation/stability/scenes.py. Those named found a fault."""
+validation/stability/scenes.py."""
 
 import pytest
 

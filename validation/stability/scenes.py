@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Valid entries of all kinds together, at random: clouds, models, transfers,
 walls, bodies, placements in 2D and 3D. Each scene must run, keep its mass and
-stay finite; a restart half way must change no bit, two ranks rounding only.
+stay finite; a restart half way must change no bit, two ranks rounding only; water
+that nothing works on may win no energy.
 
     ./scenes.py 1 200 [--results FILE]
 

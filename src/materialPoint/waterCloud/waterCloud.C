@@ -78,7 +78,7 @@ void Foam::mpm::waterCloud::select()
             << "keyword turbulence is " << turbulence_->type()
             << ", which needs the distance from walls; beside solids a bed would be one,"
             << " too." << nl << "    Allowed beside solids: none, Smagorinsky,"
-            << " kEpsilon" << exit(FatalIOError);
+            << " kEpsilon, realizableKE" << exit(FatalIOError);
     }
 
     // Plain APIC at its own time-step limit, and no more dissipative when the
