@@ -430,9 +430,9 @@ Foam::mpm::backgroundGrid::findPlated()
     for (const plate& thin : plates_)
     {
         // By the height of their lower corner
-        scalar both = near;
         const vector n(cmptMag(thin.normal()));
-        both = max(both, 1.001*farthest*h*(n.x() + n.y() + n.z()));
+        const scalar both =
+            max(near, 1.001*farthest*h*(n.x() + n.y() + n.z()));
         auto add = [&](const label cell, const vector& at)
         {
             if (mag(at[2]) > both || !ownCell(cell)) return;

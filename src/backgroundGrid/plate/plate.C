@@ -7,20 +7,6 @@ License
 #include "pointField.H"
 #include <cmath>
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace
-{
-    using namespace Foam;
-
-    //- Part of a length that is above a place, of which its middle is that far
-    scalar above(const scalar distance, const scalar length)
-    {
-        return min(scalar(1), max(scalar(0), 0.5 + distance/length));
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::mpm::plate::plate
@@ -143,11 +129,10 @@ Foam::FixedList<Foam::scalar, 4> Foam::mpm::plate::parts
     const scalar size
 ) const
 {
-    const scalar eta = local[2];
     const scalar inSpan = partInSpan(0, local, size)*partInSpan(1, local, size);
-    FixedList<scalar, 4> part;
-    part[front] = inSpan*above(eta - halfThickness_, size);
-    part[back] = inSpan*above(-eta - halfThickness_, size);
+    FixedList<scalar, 4> part(partsBetweenEdges(local[2], size));
+    part[front] *= inSpan;
+    part[back] *= inSpan;
     part[none] = 1 - inSpan;
     part[3] = max(scalar(0), inSpan - part[front] - part[back]);
     return part;

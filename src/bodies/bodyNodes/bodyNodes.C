@@ -637,37 +637,15 @@ void Foam::mpm::bodyNodes::integratePlate
                 const vector first(thin.local(corner));
                 bool any[4] = {false, false, false, false};
 
-                // By the faces alone
                 const bool between = thin.depthAt(at) > 2*diagonal + h/nSub;
-                for (label sub = 0; between && sub < nSubs; ++sub)
+                for (label sub = 0; sub < nSubs; ++sub)
                 {
-                    auto above = [&](const scalar height)
-                    {
-                        return min
-                        (
-                            scalar(1),
-                            max
-                            (
-                                scalar(0),
-                                0.5 + (height - 0.5*thin.thickness())*nSub/h
-                            )
-                        );
-                    };
-                    const scalar eta = first[2] + offset[sub][2];
-                    const scalar front = above(eta), back = above(-eta);
-                    const scalar inside = max(scalar(0), 1 - front - back);
-                    volume[plate::front][sub] = front*dV;
-                    volume[plate::back][sub] = back*dV;
-                    volume[inPlate][sub] = inside*dV;
-                    any[plate::front] = any[plate::front] || front > 0;
-                    any[plate::back] = any[plate::back] || back > 0;
-                    any[inPlate] = any[inPlate] || inside > 0;
-                }
-                for (label sub = 0; !between && sub < nSubs; ++sub)
-                {
+                    const vector place(first + offset[sub]);
                     const FixedList<scalar, 4> parts
                     (
-                        thin.parts(first + offset[sub], h/nSub)
+                        between
+                      ? thin.partsBetweenEdges(place[2], h/nSub)
+                      : thin.parts(place, h/nSub)
                     );
                     for (label part = 0; part < 4; ++part)
                     {
