@@ -10,7 +10,8 @@ License
 #include "OSspecific.H"
 #include "functionNeeds.H"
 #include "functionObject.H"
-#include "inflowOutflow.H"
+#include "expectedFlow.H"
+#include "expectedPoints.H"
 #include "bodies.H"
 #include "soilCloud.H"
 #include "waterCloud.H"
@@ -41,10 +42,6 @@ const label fewestSteps = 3;
 //  spread, over that at the start in order: 1.35 in tutorials/damBreak at 0.3 s,
 //  1.1 and 1.5 in damBreakObstacle3D at 0.5 and 1.5 s (of the kernels, perf)
 const scalar mixedTime = 1.3;
-
-//- What falls: acceleration over gravity. Waves that are no splash have less,
-//  what is not held on one side has 1
-const scalar falling = 0.3;
 
 //- Times that function objects are tried; the first one allocates
 const label nFunctionTrials = 4;
@@ -95,73 +92,16 @@ string bytes(const scalar n)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::mpm::runForecast::findInflow
-(
-    const fvMesh& mesh,
-    materialPointSystem& points
-)
+void Foam::mpm::runForecast::findInflow(materialPointSystem& points)
 {
-    const scalar weight = mag(points.g());
-    const vector up(weight > 0 ? vector(-points.g()/weight) : vector(Zero));
-    const lattice& cells = points.grid().cells();
-
     inflow_.setSize(clouds_.size(), 0);
     capacity_ = points_;
     forAll(clouds_, i)
     {
-        const inflowOutflow* open = points.clouds()[i].openBoundaries();
-        if (!open || open->inlets().empty()) continue;
-
-        scalar most = 1;
-        for (const inlet& in : open->inlets())
-        {
-            const scalar n =
-                in.dict().lookupOrDefault<label>("pointsPerDirection", 2);
-            const scalar spacing = cells.spacing(in.zone().direction())/n;
-            inflow_[i] +=
-                in.places().size()*in.volumeSpeed(start_)/spacing;
-            most = max(most, n);
-        }
-        const scalar perCell = std::pow(most, scalar(cells.nDim()));
-
-        // Full up to the inlets
-        const scalar level = open->top(up);
-        label nBelow = 0;
-        for (const point& centre : mesh.cellCentres())
-        {
-            if ((centre & up) <= level) ++nBelow;
-        }
-        capacity_[i] = max(points_[i], nBelow*perCell);
-
-        // Beside what was there, no more than runs off at critical depth
-        // (q^2/g)^(1/3) along the mesh
-        if (open->outlets().empty() || !(weight > 0)) continue;
-        scalar along = 0, across = 1;
-        for (label d = 0; d < cells.nDim(); ++d)
-        {
-            vector e(Zero);
-            e[cells.axis(d)] = 1;
-            if (mag(e & up) > 0.5) continue;
-            const scalar length = cells.nCells(d)*cells.spacing(d);
-            if (length > along)
-            {
-                if (along > 0) across = along;
-                along = length;
-            }
-            else
-            {
-                across = length;
-            }
-        }
-        if (cells.nDim() == 2)
-        {
-            across = mesh.V()[0]/(cells.spacing(0)*cells.spacing(1));
-        }
-        const scalar volume = mesh.V()[0]/perCell;
-        const scalar q = inflow_[i]*volume/across;
-        const scalar running =
-            along*across*std::cbrt(sqr(q)/weight)/volume;
-        capacity_[i] = min(capacity_[i], points_[i] + running);
+        if (!expectedPoints::has(points.clouds()[i])) continue;
+        const expectedPoints expected(points.clouds()[i], points.g());
+        inflow_[i] = expected.inflow(start_);
+        capacity_[i] = expected.capacity();
     }
 }
 
@@ -504,8 +444,11 @@ void Foam::mpm::runForecast::takeSteps
         flowSpeed_ = liquid.globalMaxSpeed();
         if
         (
-            flowSpeed_ - startSpeed
-          > falling*mag(points.g())*(runTime.value() - start_)
+            expectedFlow::falls
+            (
+                flowSpeed_ - startSpeed, mag(points.g()),
+                runTime.value() - start_
+            )
         )
         {
             mixing_ = mixedTime;
@@ -574,7 +517,7 @@ void Foam::mpm::runForecast::tryCase(Time& runTime)
 
     nCells_ = mesh.nCells();
     findScene(runTime, points);
-    findInflow(mesh, points);
+    findInflow(points);
     takeSteps(runTime, points);
     findWriteInterval(runTime);
     if (nTrial_ > 0)
@@ -609,7 +552,7 @@ Foam::scalar Foam::mpm::runForecast::meanPoints
 Foam::scalar Foam::mpm::runForecast::flowDeltaT() const
 {
     // As fast as its speed of sound was chosen for
-    const scalar expected = 0.1*soundSpeed_;
+    const scalar expected = expectedFlow::speed(soundSpeed_);
     if (!adjusts_ || liquidDeltaT_ > 1.05*deltaT_ || flowSpeed_ > expected)
     {
         return deltaT_;
@@ -625,8 +568,7 @@ Foam::scalar Foam::mpm::runForecast::flowDeltaT() const
 Foam::scalar Foam::mpm::runForecast::meanDeltaT() const
 {
     const scalar deltaT = flowDeltaT();
-    return adjusts_ && writeInterval_ < GREAT
-      ? writeInterval_/std::ceil(writeInterval_/deltaT*(1 - 1e-9)) : deltaT;
+    return adjusts_ ? expectedFlow::wholeSteps(deltaT, writeInterval_) : deltaT;
 }
 
 
@@ -832,7 +774,7 @@ void Foam::mpm::runForecast::report() const
         Info<< " (" << digits(deltaT_).c_str() << " s at the start";
         if (flowDeltaT() < 0.99*deltaT_)
         {
-            Info<< "; for a flow of " << digits(0.1*soundSpeed_).c_str()
+            Info<< "; for a flow of " << digits(expectedFlow::speed(soundSpeed_)).c_str()
                 << " m/s";
         }
         if (deltaT < 0.99*flowDeltaT())

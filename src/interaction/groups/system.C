@@ -5,6 +5,7 @@
 #include "../caseRecord/caseRecord.C"
 #include "../functionNeeds/functionNeeds.C"
 #include "../remainingTime/remainingTime.C"
+#include "../expectedPoints/expectedPoints.C"
 #include "../materialPointSystem/materialPointSystem.C"
 #include "../materialPointSystem/materialPointSystemLog.C"
 #include "../materialPointSystem/materialPointSystemRestart.C"

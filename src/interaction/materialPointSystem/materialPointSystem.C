@@ -8,6 +8,7 @@ License
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "bodies.H"
+#include "expectedPoints.H"
 #include "momentumStep.H"
 #include "movingFrame.H"
 #include "phasePair.H"
@@ -862,6 +863,10 @@ Foam::mpm::materialPointSystem::materialPointSystem(const fvMesh& mesh)
     pointSteps_(0),
     maxPoints_(0),
     logThisStep_(true),
+    startTime_(0),
+    startSpeed_(0),
+    falls_(false),
+    fallsKnown_(false),
     fieldsCurrent_(false),
     stepsSinceRebuild_(0),
     target_(GREAT),
@@ -922,7 +927,7 @@ Foam::mpm::materialPointCloud& Foam::mpm::materialPointSystem::cloud
 
 void Foam::mpm::materialPointSystem::startDeltaT(Time& runTime)
 {
-    remaining_.start(runTime);
+    startRemaining(runTime);
 
     // A run that ended may have a little left
     if (runTime.timeIndex() > 0) return;

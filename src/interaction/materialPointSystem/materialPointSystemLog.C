@@ -11,6 +11,8 @@ Description
 #include "materialPointSystem.H"
 #include "bodies.H"
 #include "effectsTable.H"
+#include "expectedFlow.H"
+#include "expectedPoints.H"
 #include "movingFrame.H"
 #include "phasePair.H"
 #include "relaxationZone.H"
@@ -205,6 +207,146 @@ void Foam::mpm::materialPointSystem::reportEffects() const
 }
 
 
+void Foam::mpm::materialPointSystem::startRemaining(const Time& runTime)
+{
+    remaining_.start(runTime);
+    startTime_ = runTime.value();
+    startSpeed_ = liquid_ ? liquid_->globalMaxSpeed() : 0;
+    fallsKnown_ = falls_ = false;
+
+    expected_.setSize(clouds_.size());
+    forAll(clouds_, i)
+    {
+        if (!expectedPoints::has(clouds_[i])) continue;
+        expected_.set(i, new expectedPoints(clouds_[i], g_));
+        expected_[i].note(startTime_, clouds_[i].globalSize());
+    }
+}
+
+
+Foam::scalar Foam::mpm::materialPointSystem::expectedDeltaT() const
+{
+    if
+    (
+        !falls_ || limiter_ != liquid_->waveName()
+     || !time_.controlDict().lookupOrDefault<Switch>("adjustTimeStep", false)
+    )
+    {
+        return GREAT;
+    }
+
+    const scalar sound = liquid_->fluid().soundSpeed();
+    const scalar speed = liquid_->globalMaxSpeed();
+    const scalar ahead = max(speed, expectedFlow::speed(sound));
+    const scalar reach = maxCo_*grid_.cells().minSpacing();
+
+    const scalar interval =
+        writeIntervals_.size() ? min(writeIntervals_) : GREAT;
+    return expectedFlow::wholeSteps(reach/(sound + ahead), interval);
+}
+
+
+void Foam::mpm::materialPointSystem::logRemaining(const Time& runTime)
+{
+    const scalar now = runTime.value();
+    if (!fallsKnown_)
+    {
+        fallsKnown_ = true;
+        falls_ = liquid_ && expectedFlow::falls
+        (
+            liquid_->globalMaxSpeed() - startSpeed_, mag(g_), now - startTime_
+        );
+    }
+
+    std::vector<remainingTime::part> parts;
+
+    if (bodies_.valid() && bodies_->anyMoves())
+    {
+        parts.push_back
+        (
+            remainingTime::part
+            {
+                0,
+                [&](const scalar from, const scalar to)
+                {
+                    return bodies_->volumeInMesh(from, to);
+                }
+            }
+        );
+    }
+
+    // Parts of a cloud go with its points, what is of none, with those of all
+    scalar still = 0, shared = 0;
+    const size_t nBodies = parts.size();
+    labelList partOf(clouds_.size(), -1);
+    forAll(clouds_, i)
+    {
+        const scalar n = clouds_[i].globalSize();
+        if (!expected_.set(i))
+        {
+            still += n;
+            continue;
+        }
+        expected_[i].note(now, n);
+        partOf[i] = parts.size();
+        parts.push_back
+        (
+            remainingTime::part
+            {
+                0,
+                [this, i](const scalar from, const scalar to)
+                {
+                    return expected_[i].mean(from, to);
+                }
+            }
+        );
+    }
+    for (size_t k = 0; k < cost_.size(); ++k)
+    {
+        const std::string name(cost_.name(k));
+        if (name == "bodies: geometry")
+        {
+            if (nBodies) parts[0].seconds = cost_.seconds(k);
+            continue;
+        }
+        bool ofCloud = false;
+        forAll(clouds_, i)
+        {
+            if (name.compare(0, clouds_[i].name().size() + 2,
+                clouds_[i].name() + ": ") != 0) continue;
+            ofCloud = true;
+            if (partOf[i] >= 0) parts[partOf[i]].seconds += cost_.seconds(k);
+        }
+        if (!ofCloud) shared += cost_.seconds(k);
+    }
+    if (parts.size() > nBodies)
+    {
+        parts.push_back
+        (
+            remainingTime::part
+            {
+                shared,
+                [this, still](const scalar from, const scalar to)
+                {
+                    scalar n = still;
+                    forAll(expected_, i)
+                    {
+                        if (expected_.set(i)) n += expected_[i].mean(from, to);
+                    }
+                    return n;
+                }
+            }
+        );
+    }
+
+    const string remaining
+    (
+        remaining_.line(runTime, parts, expectedDeltaT())
+    );
+    if (remaining.size()) Info<< remaining.c_str() << nl;
+}
+
+
 void Foam::mpm::materialPointSystem::log(const Time& runTime)
 {
     const label step = clouds_[0].stepCount();
@@ -268,32 +410,7 @@ void Foam::mpm::materialPointSystem::log(const Time& runTime)
     if (solids_.size()) logBed(runTime);
     if (liquid_) logDensity();
     if (settings_.maxSoilSoundSpeed < GREAT) logImpacts();
-    string remaining;
-    if (bodies_.valid() && bodies_->anyMoves())
-    {
-        scalar seconds = 0;
-        for (size_t i = 0; i < cost_.size(); ++i)
-        {
-            if (cost_.name(i) == "bodies: geometry")
-            {
-                seconds = cost_.seconds(i);
-            }
-        }
-        remaining = remaining_.line
-        (
-            runTime,
-            seconds,
-            [&](const scalar from, const scalar to)
-            {
-                return bodies_->volumeInMesh(from, to);
-            }
-        );
-    }
-    else
-    {
-        remaining = remaining_.line(runTime);
-    }
-    if (remaining.size()) Info<< remaining.c_str() << nl;
+    logRemaining(runTime);
     Info<< "ExecutionTime = " << runTime.elapsedCpuTime() << " s"
         << "  ClockTime = " << runTime.elapsedClockTime() << " s" << nl
         << endl;

@@ -12,18 +12,20 @@ License
 Foam::mpm::remainingTime::sample Foam::mpm::remainingTime::now
 (
     const Time& runTime,
-    const scalar bodies
+    const std::vector<part>& parts
 ) const
 {
     const std::chrono::duration<double> elapsed
     (
         std::chrono::steady_clock::now() - begin_
     );
-    return sample
+    sample s
     {
         runTime.value(), scalar(std::clock())/CLOCKS_PER_SEC, elapsed.count(),
-        bodies
+        runTime.timeIndex(), scalarList(label(parts.size()))
     };
+    for (size_t i = 0; i < parts.size(); ++i) s.seconds[i] = parts[i].seconds;
+    return s;
 }
 
 
@@ -31,9 +33,6 @@ Foam::mpm::remainingTime::sample Foam::mpm::remainingTime::now
 
 Foam::mpm::remainingTime::remainingTime()
 :
-    samples_(maxSamples),
-    stride_(1),
-    since_(0),
     begin_(std::chrono::steady_clock::now())
 {}
 
@@ -43,58 +42,53 @@ Foam::mpm::remainingTime::remainingTime()
 void Foam::mpm::remainingTime::start(const Time& runTime)
 {
     samples_.clear();
-    samples_.append(now(runTime, 0));
+    samples_.append(now(runTime, std::vector<part>()));
 }
 
 
 Foam::string Foam::mpm::remainingTime::line
 (
     const Time& runTime,
-    const scalar bodies,
-    const load& loadOfBodies
+    const std::vector<part>& parts,
+    const scalar deltaT
 )
 {
     if (samples_.empty()) start(runTime);
 
-    const sample current(now(runTime, bodies));
+    const sample current(now(runTime, parts));
     const scalar done = current.time - samples_[0].time;
     const scalar left = max(scalar(0), runTime.endTime().value() - current.time);
 
     // The last one that is early enough
     label i = samples_.size() - 1;
     while (i > 0 && current.time - samples_[i].time < lastPart*done) --i;
-    const sample& from = samples_[i];
-
-    if (++since_ >= stride_)
-    {
-        since_ = 0;
-        samples_.append(current);
-        if (samples_.size() >= maxSamples)
-        {
-            for (label k = 0; 2*k < samples_.size(); ++k)
-            {
-                samples_[k] = samples_[2*k];
-            }
-            samples_.setSize((samples_.size() + 1)/2);
-            stride_ *= 2;
-        }
-    }
+    const sample from(samples_[i]);
+    samples_.append(current);
 
     const scalar passed = current.time - from.time;
     if (!(passed > 0)) return string();
 
     scalar ratio = left/passed;
-    if (loadOfBodies && current.clock > from.clock && left > 0)
+    if (left > 0 && current.clock > from.clock)
     {
-        const scalar before = loadOfBodies(from.time, current.time);
-        const scalar ahead =
-            loadOfBodies(current.time, current.time + left);
-        const scalar share = min
-        (
-            (current.bodies - from.bodies)/(current.clock - from.clock),
-            scalar(1)
-        );
-        if (before > 0) ratio *= 1 - share*(1 - ahead/before);
+        scalar factor = 1;
+        forAll(current.seconds, k)
+        {
+            const scalar before = parts[k].load(from.time, current.time);
+            const scalar ahead =
+                parts[k].load(current.time, current.time + left);
+
+            // The first one is of a start at which nothing was spent
+            const scalar spent = current.seconds[k]
+              - (k < from.seconds.size() ? from.seconds[k] : 0);
+            const scalar share =
+                min(spent/(current.clock - from.clock), scalar(1));
+            if (before > 0) factor += share*(ahead/before - 1);
+        }
+        ratio *= max(factor, scalar(0));
+
+        const label steps = current.step - from.step;
+        if (steps > 0) ratio *= max(scalar(1), passed/steps/deltaT);
     }
     const scalar clock = ratio*(current.clock - from.clock);
 
