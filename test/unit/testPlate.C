@@ -139,6 +139,64 @@ TEST_CASE("plate: views, nearest places and parts")
 }
 
 
+TEST_CASE("plate: wholly in one part, and moved by how much at most")
+{
+    const plate thin
+        (point(1, 1, 0), point(4, 5, 0), vector(0, 0, 1), 1.1, true);
+
+    // Cubes along it, in part of which as parts() says
+    const scalar size = 0.6;
+    label whole = 0, cut = 0, other = 0;
+    for (label j = 0; j < 60; ++j)
+    for (label i = 0; i < 60; ++i)
+    {
+        const vector at(thin.local(point(0.103*i - 0.5, 0.107*j, 0)));
+        const FixedList<scalar, 4> parts(thin.parts(at, size));
+        const label found = thin.whole(at, vector::uniform(0.5*size));
+        if (found < 0) ++cut;
+        else ++whole;
+        for (label part = 0; part < 4; ++part)
+        {
+            other += (parts[part] > 1 - 1e-9) != (part == found);
+        }
+    }
+    equal("some are whole, some are cut", whole > 100 && cut > 100, true);
+    equal("differ from parts()", other, 0);
+
+    atMost
+    (
+        "error of what a box takes",
+        mag(thin.extents(vector(1, 2, 0)) - vector(2.2, 0, 2)), 1e-14
+    );
+
+    // Elsewhere
+    const tensor rotation
+        (0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1);
+    const vector way(0.02, -0.01, 0);
+    auto move = [&](const point& x) { return (rotation & x) + way; };
+    const plate there(thin.moved(move, rotation));
+    const plate further
+        (thin.moved([&](const point& x) { return x + 0.3*vector(3, 4, 0); }, I));
+    vector most(Zero), mostAlong(Zero);
+    const scalar radius = 3;
+    for (label i = 0; i < 100; ++i)
+    {
+        const point x
+        (
+            point(2.5, 3, 0)
+          + 0.99*radius*vector(std::cos(0.7*i), std::sin(0.7*i), 0)
+        );
+        most = max(most, cmptMag(there.local(x) - thin.local(x)));
+        mostAlong = max(mostAlong, cmptMag(further.local(x) - thin.local(x)));
+    }
+    const vector bound(there.change(thin, radius));
+    const vector along(further.change(thin, radius));
+    equal("bound holds", cmptMin(bound - most) >= 0, true);
+    equal("bound holds along", cmptMin(along - mostAlong) >= -1e-12, true);
+    atMost("error along", mag(along - vector(1.5, 0, 0)), 1e-12);
+}
+
+
 TEST_CASE("plate: no records without one")
 {
     platedScene s({});

@@ -405,36 +405,48 @@ Foam::mpm::backgroundGrid::findPlated()
         }
     };
 
+    looked_.clear();
     for (size_t p = 0; p < plates_.size(); ++p)
     {
         const plate& thin = plates_[p];
+        looked_.push_back(lookedAt{thin, 0, 0.25*h, 0.25*h});
+        lookedAt& looked = looked_.back();
         auto part = [&](const label node, const vector& at)
         {
-            if (mag(at[2]) > far || nodeView_[node] != plate::none) return;
+            looked.radius = max(looked.radius, magSqr(at));
+            looked.normal = min(looked.normal, mag(mag(at[2]) - far));
+            if (mag(at[2]) > far) return;
+            looked.normal = min(looked.normal, mag(at[2] + thin.skin()));
+            looked.along =
+                min(looked.along, mag(thin.depthAt(at) - thin.skin()));
+            if (nodeView_[node] != plate::none) return;
             const label own = thin.viewOf(at);
             if (own == plate::none) return;
             nodeView_[node] = own;
             nodePlate_[boxNode(node)] = label(p);
             found.nodes.emplace_back(node, own);
         };
-        forRange(thin, 0, part);
+        forRange(thin, 1, part);
         for (label i = nBoxNodes(); i < nFirst(); ++i)
         {
             part(i, thin.local(nodePosition(i)));
         }
+        looked.radius = std::sqrt(looked.radius) + h;
     }
     std::sort(found.nodes.begin(), found.nodes.end());
 
     // Cells that reach nodes of both sides, or are near
     const label farthest = max(-reachStart_, reachStart_ + reachWidth_ - 1);
-    for (const plate& thin : plates_)
+    for (lookedAt& looked : looked_)
     {
         // By the height of their lower corner
+        const plate& thin = looked.where;
         const vector n(cmptMag(thin.normal()));
         const scalar both =
             max(near, 1.001*farthest*h*(n.x() + n.y() + n.z()));
         auto add = [&](const label cell, const vector& at)
         {
+            looked.normal = min(looked.normal, mag(mag(at[2]) - near));
             if (mag(at[2]) > both || !ownCell(cell)) return;
             label p = -1;
             bool sides[3] = {false, false, false};
@@ -651,7 +663,18 @@ void Foam::mpm::backgroundGrid::setPlates(const std::vector<plate>& plates)
 
 bool Foam::mpm::backgroundGrid::recordsStale()
 {
-    return returnReduce(findPlated() != plated_, orOp<bool>());
+    // Most steps are too short for that
+    bool moved = looked_.size() != plates_.size();
+    for (size_t p = 0; !moved && p < plates_.size(); ++p)
+    {
+        const lookedAt& looked = looked_[p];
+        const vector change(plates_[p].change(looked.where, looked.radius));
+        const scalar rounding = 1e-9*lattice_->minSpacing();
+        moved =
+            change[2] + rounding > looked.normal
+         || max(change[0], change[1]) + rounding > looked.along;
+    }
+    return returnReduce(moved && findPlated() != plated_, orOp<bool>());
 }
 
 

@@ -82,13 +82,38 @@ void Foam::mpm::plate::extend(const label i, const scalar length)
 }
 
 
-Foam::mpm::plate::surface Foam::mpm::plate::nearest(const point& x) const
+Foam::vector Foam::mpm::plate::change
+(
+    const plate& before,
+    const scalar radius
+) const
+{
+    vector most;
+    for (label k = 0; k < 3; ++k)
+    {
+        most[k] =
+            mag(axes_[k] - before.axes_[k])*radius
+          + mag(axes_[k] & (centre_ - before.centre_));
+        if (k == 2) continue;
+        most[k] += max
+        (
+            mag(lower_[k] - before.lower_[k]), mag(upper_[k] - before.upper_[k])
+        );
+    }
+    return most;
+}
+
+
+Foam::mpm::plate::surface Foam::mpm::plate::nearestTo
+(
+    const vector& local
+) const
 {
     // Beyond which faces it is, by how much, and on which side of the middle
     FixedList<scalar, 3> beyond, sign;
     for (label k = 0; k < 3; ++k)
     {
-        const scalar xi = axes_[k] & (x - centre_);
+        const scalar xi = local[k];
         const scalar lower = k < 2 ? lower_[k] - xi : -halfThickness_ - xi;
         const scalar upper = k < 2 ? xi - upper_[k] : xi - halfThickness_;
         beyond[k] = max(lower, upper);

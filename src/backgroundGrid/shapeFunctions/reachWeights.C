@@ -17,11 +17,11 @@ void Foam::mpm::reachWeights
 )
 {
     scalar q[4];
-    if (grid.shapeFunction() == linear::name)
+    if (grid.tileWidth() == linear::width)
     {
         linear::reachWeights(f, w, q, g);
     }
-    else if (grid.shapeFunction() == quadraticBSpline::name)
+    else if (grid.tileWidth() == quadraticBSpline::width)
     {
         quadraticBSpline::reachWeights(f, w, q, g);
     }

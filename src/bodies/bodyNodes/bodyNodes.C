@@ -6,6 +6,7 @@ License
 #include "bodyNodes.H"
 #include "PstreamReduceOps.H"
 #include <algorithm>
+#include <unordered_map>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -41,15 +42,6 @@ Foam::point Foam::mpm::bodyNodes::positionOf(const index3& at) const
     }
     if (cells.nDim() == 2) x[cells.axis(2)] = cells.midPlane();
     return x;
-}
-
-
-const Foam::mpm::plate* Foam::mpm::bodyNodes::plateAt
-(
-    const label number
-) const
-{
-    return bodies_[nodes_[number].body].thinPlate();
 }
 
 
@@ -107,8 +99,10 @@ bool Foam::mpm::bodyNodes::findIds(const std::vector<scalar>& inverseVolume)
     const scalar far = body::reach*grid_.cells().minSpacing();
 
     // Of this rank, each copy once
-    std::vector<std::pair<int64_t, label>> own;
+    const lattice& cells = grid_.cells();
+    std::vector<std::pair<int64_t, label>> own, seconds;
     own.reserve(own_.size());
+    point x(positionOf(index3(label(0))));
     for (label b = 0; b < bodies_.size(); ++b)
     {
         index3 first, last;
@@ -125,16 +119,21 @@ bool Foam::mpm::bodyNodes::findIds(const std::vector<scalar>& inverseVolume)
             for (label d = 0; d < grid_.nDim(); ++d)
             {
                 at[d] = i[d] + grid_.lower(d);
+                x[cells.axis(d)] = cells.origin(d) + at[d]*cells.spacing(d);
             }
-            if (!(mag(bodies_[b].distance(positionOf(at))) < far)) continue;
+            if (!(mag(bodies_[b].distance(x)) < far)) continue;
             own.emplace_back(globalId(at), node);
 
             const label second = bodies_[b].thinPlate()
               ? grid_.second(node) : -1;
-            if (second >= 0) own.emplace_back(globalId(at, true), second);
+            if (second >= 0) seconds.emplace_back(globalId(at, true), second);
         }
     }
-    std::sort(own.begin(), own.end());
+    own.insert(own.end(), seconds.begin(), seconds.end());
+    if (!std::is_sorted(own.begin(), own.end()))
+    {
+        std::sort(own.begin(), own.end());
+    }
     own.erase(std::unique(own.begin(), own.end()), own.end());
 
     const bool others = returnReduce(own != own_, orOp<bool>());
@@ -143,12 +142,21 @@ bool Foam::mpm::bodyNodes::findIds(const std::vector<scalar>& inverseVolume)
 }
 
 
+Foam::label Foam::mpm::bodyNodes::find(const int64_t id, label& next) const
+{
+    if (next >= size() || id_[next] != id)
+    {
+        next = label(std::lower_bound(id_.begin(), id_.end(), id) - id_.begin());
+    }
+    return next < size() && id_[next] == id ? next++ : -1;
+}
+
+
 void Foam::mpm::bodyNodes::number(const std::vector<scalar>& inverseVolume)
 {
     for (const local& l : local_) numberOf_[l.grid] = -1;
     local_.clear();
     id_.clear();
-    number_.clear();
 
     // Nodes that no own cell reaches, only its neighbours', may have values that
     // another rank knows better
@@ -182,23 +190,26 @@ void Foam::mpm::bodyNodes::number(const std::vector<scalar>& inverseVolume)
     {
         for (const int64_t id : ids[rank])
         {
-            if (giver.emplace(id, rank).second) id_.push_back(id);
+            if (Pstream::parRun()) giver.emplace(id, rank);
+            id_.push_back(id);
         }
     }
     std::sort(id_.begin(), id_.end());
-    number_.reserve(id_.size());
-    for (size_t i = 0; i < id_.size(); ++i) number_[id_[i]] = label(i);
+    id_.erase(std::unique(id_.begin(), id_.end()), id_.end());
 
     nodes_.resize(id_.size());
     std::vector<scalar> inverse(nodes_.size(), 0);
     int64_t last = -1;
+    label next = 0;
     for (const auto& o : own_)
     {
-        const label k = number_[o.first];
+        // No rank reaches some
+        const label k = find(o.first, next);
+        if (k < 0) continue;
         numberOf_[o.second] = k;
         const bool gives =
-            o.first != last && giver[o.first] == Pstream::myProcNo()
-         && reached(o.second);
+            o.first != last && reached(o.second)
+         && (!Pstream::parRun() || giver[o.first] == Pstream::myProcNo());
         if (gives) last = o.first;
         local_.push_back(local{o.second, k, gives});
         if (gives) inverse[k] = inverseVolume[o.second];
@@ -218,6 +229,7 @@ void Foam::mpm::bodyNodes::measure()
 {
     const lattice& cells = grid_.cells();
     const scalar h = cells.minSpacing();
+    const int64_t firsts = nIds();
 
     // How far the function of a node reaches
     vector support(Zero);
@@ -225,13 +237,21 @@ void Foam::mpm::bodyNodes::measure()
     {
         support[cells.axis(d)] = 0.5*grid_.tileWidth()*cells.spacing(d);
     }
+    std::vector<vector> extents(bodies_.size());
+    for (label b = 0; b < bodies_.size(); ++b)
+    {
+        const plate* thin = bodies_[b].thinPlate();
+        if (thin) extents[b] = thin->extents(support);
+    }
+    const bool one = bodies_.size() == 1;
     for (size_t k = 0; k < nodes_.size(); ++k)
     {
         node& n = nodes_[k];
-        n.body = bodies_.nearest(n.x, n.phi);
+        n.body = one ? 0 : bodies_.nearest(n.x, n.phi);
         const plate* thin = bodies_[n.body].thinPlate();
         if (!thin)
         {
+            if (one) n.phi = bodies_[0].distance(n.x);
             const vector g(bodies_[n.body].gradient(n.x, h));
             n.smooth = magSqr(g) > 0.94;
             n.faced = true;
@@ -244,23 +264,25 @@ void Foam::mpm::bodyNodes::measure()
             n.buried = false;
             continue;
         }
-        n.smooth = thin->smooth(n.x, h);
-        n.view = thin->viewAt(n.x);
-        if (id_[k] < nIds())
+        const vector at(thin->local(n.x));
+        n.smooth = thin->depthAt(at) > h;
+        n.view = thin->viewOf(at);
+        if (id_[k] < firsts)
         {
-            const plate::surface near(thin->nearest(n.x));
+            const plate::surface near(thin->nearestTo(at));
+            n.phi = near.distance;
             n.n = near.normal;
             n.faced = near.face;
         }
         else
         {
             // Behind the face of the other side
-            n.phi = -mag(thin->height(n.x)) - 0.5*thin->thickness();
+            n.phi = -mag(at[2]) - 0.5*thin->thickness();
             n.n = (n.view == plate::front ? -1 : 1)*thin->normal();
             n.view = plate::front + plate::back - n.view;
             n.faced = true;
         }
-        n.buried = thin->hides(n.x, n.view, support);
+        n.buried = thin->hides(at, n.view, extents[n.body]);
     }
 }
 
@@ -271,21 +293,9 @@ class Foam::mpm::bodyNodes::dividedCell
     const backgroundGrid& grid_;
     const label n_;
 
-    //- Weights at the middles of the parts, the same in each cell
-    struct weights { scalar of[4]; };
-    std::vector<weights> w_;
-
-    index3 coordinate(const label sub) const
-    {
-        index3 s;
-        label rest = sub;
-        for (label d = 0; d < 3; ++d)
-        {
-            s[d] = d < grid_.nDim() ? rest % n_ : 0;
-            rest /= n_;
-        }
-        return s;
-    }
+    //- Middles of the parts and weights there by node, the same in each cell
+    std::vector<scalar> middle_;
+    std::vector<packed<4>> w_;
 
 public:
 
@@ -293,28 +303,36 @@ public:
     :
         grid_(grid),
         n_(n),
+        middle_(n),
         w_(n)
     {
-        scalar unused[4];
+        scalar w[4] = {0, 0, 0, 0}, unused[4];
         for (label s = 0; s < n; ++s)
         {
-            reachWeights(grid, (s + 0.5)/n, w_[s].of, unused);
+            middle_[s] = (s + 0.5)/n;
+            reachWeights(grid, middle_[s], w, unused);
+            w_[s] = packed<4>{w[0], w[1], w[2], w[3]};
         }
     }
 
-    label size() const { return grid_.nDim() == 3 ? n_*n_*n_ : n_*n_; }
-
-    //- Middle of a part, from the lower corner of the cell
-    point position(const point& corner, const label sub) const
+    //- Middles of the parts, from the lower corner of the cell
+    std::vector<point> positions() const
     {
         const lattice& cells = grid_.cells();
-        const index3 s = coordinate(sub);
-        point x(corner);
-        for (label d = 0; d < grid_.nDim(); ++d)
+        std::vector<point> all;
+        for (label k = 0; k < (grid_.nDim() == 3 ? n_ : 1); ++k)
+        for (label j = 0; j < n_; ++j)
+        for (label i = 0; i < n_; ++i)
         {
-            x[cells.axis(d)] += (s[d] + 0.5)/n_*cells.spacing(d);
+            const index3 part{i, j, k};
+            point x(Zero);
+            for (label d = 0; d < grid_.nDim(); ++d)
+            {
+                x[cells.axis(d)] = middle_[part[d]]*cells.spacing(d);
+            }
+            all.push_back(x);
         }
-        return x;
+        return all;
     }
 
     //- Moments by node in reach of volumes by part: direction by direction
@@ -325,147 +343,128 @@ public:
     ) const
     {
         const label T = grid_.reachWidth();
-        const label nz = grid_.nDim() == 3 ? n_ : 1;
-
-        // Along x: by power of the coordinate, node, and row of parts
-        scalar ofRow[3][4], ofLayer[6][16];
+        const bool is3D = grid_.nDim() == 3;
         std::fill(m.begin(), m.end(), moments());
-        for (label k = 0; k < nz; ++k)
+
+        // All nodes along x at once: by power of the coordinate
+        packed<4> ofRow[3], ofLayer[6][4];
+        const scalar* v = volume.data();
+        for (label k = 0; k < (is3D ? n_ : 1); ++k)
         {
             // Powers along x and y: 00, 10, 20, 01, 11, 02
-            std::fill(&ofLayer[0][0], &ofLayer[0][0] + 6*16, scalar(0));
+            for (auto& power : ofLayer)
+            {
+                for (packed<4>& sum : power) sum = packed<4>{};
+            }
             for (label j = 0; j < n_; ++j)
             {
-                std::fill(&ofRow[0][0], &ofRow[0][0] + 3*4, scalar(0));
+                for (packed<4>& sum : ofRow) sum = packed<4>{};
                 bool any = false;
-                for (label i = 0; i < n_; ++i)
+                for (label i = 0; i < n_; ++i, ++v)
                 {
-                    scalar v = volume[i + n_*(j + n_*k)];
-                    if (!(v > 0)) continue;
+                    if (!(*v > 0)) continue;
                     any = true;
-                    const scalar x = (i + 0.5)/n_;
-                    for (label power = 0; power < 3; ++power, v *= x)
-                    {
-                        for (label t = 0; t < T; ++t)
-                        {
-                            ofRow[power][t] += v*w_[i].of[t];
-                        }
-                    }
+                    const scalar x = middle_[i];
+                    const scalar vx = *v*x;
+                    ofRow[0] += *v*w_[i];
+                    ofRow[1] += vx*w_[i];
+                    ofRow[2] += vx*x*w_[i];
                 }
                 if (!any) continue;
-                const scalar y = (j + 0.5)/n_;
+                const scalar y = middle_[j];
                 for (label u = 0; u < T; ++u)
-                for (label t = 0; t < T; ++t)
                 {
-                    const scalar w = w_[j].of[u];
-                    const label at = t + T*u;
-                    ofLayer[0][at] += w*ofRow[0][t];
-                    ofLayer[1][at] += w*ofRow[1][t];
-                    ofLayer[2][at] += w*ofRow[2][t];
-                    ofLayer[3][at] += w*y*ofRow[0][t];
-                    ofLayer[4][at] += w*y*ofRow[1][t];
-                    ofLayer[5][at] += w*y*y*ofRow[0][t];
+                    const scalar w = w_[j][u];
+                    ofLayer[0][u] += w*ofRow[0];
+                    ofLayer[1][u] += w*ofRow[1];
+                    ofLayer[2][u] += w*ofRow[2];
+                    ofLayer[3][u] += w*y*ofRow[0];
+                    ofLayer[4][u] += w*y*ofRow[1];
+                    ofLayer[5][u] += w*y*y*ofRow[0];
                 }
             }
-            const bool is3D = nz > 1;
-            const scalar z = is3D ? (k + 0.5)/n_ : 0;
-            for (size_t t = 0; t < m.size(); ++t)
+            const scalar z = is3D ? middle_[k] : 0;
+            moments* to = m.data();
+            for (label c = 0; c < (is3D ? T : 1); ++c)
+            for (label u = 0; u < T; ++u)
+            for (label t = 0; t < T; ++t, ++to)
             {
-                const label at = label(t) % (T*T);
-                const scalar w = is3D ? w_[k].of[label(t)/(T*T)] : 1;
-                const scalar V = w*ofLayer[0][at];
-                const scalar x = w*ofLayer[1][at], y = w*ofLayer[3][at];
-                const scalar xy = w*ofLayer[4][at];
-                m[t].V += V;
-                m[t].first += vector(x, y, z*V);
-                m[t].second += tensor
-                (
-                    w*ofLayer[2][at], xy, z*x,
-                    xy, w*ofLayer[5][at], z*y,
-                    z*x, z*y, z*z*V
-                );
+                const scalar w = is3D ? w_[k][c] : 1;
+                const scalar V = w*ofLayer[0][u][t];
+                const scalar x = w*ofLayer[1][u][t], y = w*ofLayer[3][u][t];
+                const scalar xy = w*ofLayer[4][u][t];
+                *to += moments
+                {{
+                    V, x, y, z*V,
+                    w*ofLayer[2][u][t], xy, z*x,
+                    xy, w*ofLayer[5][u][t], z*y,
+                    z*x, z*y, z*z*V,
+                    V, V, V
+                }};
             }
-        }
-    }
-
-    //- Add a volume in a part, by node in reach
-    void add
-    (
-        std::vector<moments>& m,
-        const label sub,
-        const scalar volume
-    ) const
-    {
-        const label T = grid_.reachWidth();
-        const index3 s = coordinate(sub);
-        vector y(Zero);
-        for (label d = 0; d < grid_.nDim(); ++d) y[d] = (s[d] + 0.5)/n_;
-        const tensor yy(y*y);
-        for (size_t t = 0; t < m.size(); ++t)
-        {
-            const label i = label(t);
-            scalar w = volume*w_[s[0]].of[i % T]*w_[s[1]].of[(i/T) % T];
-            if (grid_.nDim() == 3) w *= w_[s[2]].of[i/(T*T)];
-            m[t].V += w;
-            m[t].first += w*y;
-            m[t].second += w*yy;
         }
     }
 };
 
 
+Foam::mpm::bodyNodes::moments Foam::mpm::bodyNodes::aboutNode
+(
+    const moments& m,
+    const label t,
+    const vector& other
+) const
+{
+    // int N, int N (x_I - x)_c, int N (x_I - x)_c (x_J - x)_d
+    const vector& own = reached_[t];
+    moments about(m);
+    for (label c = 0; c < 3; ++c)
+    {
+        about.of[1 + c] = m.V()*own[c] - m.of[1 + c];
+        for (label d = 0; d < 3; ++d)
+        {
+            about.of[4 + 3*c + d] =
+                m.V()*own[c]*other[d]
+              - own[c]*m.of[1 + d]
+              - other[d]*m.of[1 + c]
+              + m.of[4 + 3*c + d];
+        }
+    }
+    return about;
+}
+
+
 void Foam::mpm::bodyNodes::addFolded
 (
-    const label cell,
     const index3& coordinate,
+    const label stencil,
     const label t,
     const label k,
     const moments& m,
-    const nodeFolding& folding,
-    std::vector<scalar>& sums
-) const
+    const nodeFolding& folding
+)
 {
-    const lattice& cells = grid_.cells();
-    const label nDim = cells.nDim();
-    const label s = folding.stencil(cell);
+    if (stencil < 0)
+    {
+        add(k, aboutNode(m, t, reached_[t]));
+        return;
+    }
 
-    // x_I of the node in reach, and of its target, from the corner
-    vector reached(Zero), own(Zero), scale(Zero), sign(Zero);
-    label rest = t;
-    for (label d = 0; d < nDim; ++d)
+    // To the target, with the signs of a vector
+    const index3 target = grid_.coordinate(folding.targets(stencil)[t]);
+    const nodeVector& signs = folding.signs(stencil)[t];
+    vector place(Zero);
+    for (label d = 0; d < grid_.nDim(); ++d)
     {
-        reached[d] = grid_.reachStart() + rest % grid_.reachWidth();
-        rest /= grid_.reachWidth();
+        place[d] = target[d] - coordinate[d];
     }
-    own = reached;
-    if (s >= 0)
+    moments about(aboutNode(m, t, place));
+    for (label c = 0; c < grid_.nDim(); ++c)
     {
-        const index3 target = grid_.coordinate(folding.targets(s)[t]);
-        for (label d = 0; d < nDim; ++d) own[d] = target[d] - coordinate[d];
+        about.of[1 + c] *= signs[c];
+        about.of[13 + c] *= signs[c];
+        for (label d = 0; d < 3; ++d) about.of[4 + 3*c + d] *= signs[c];
     }
-    for (label d = 0; d < nDim; ++d)
-    {
-        sign[d] = s < 0 ? 1 : folding.signs(s)[t][d];
-        scale[d] = sign[d]/(grid_.secondMoment()*cells.spacing(d));
-    }
-    scalar* sum = sums.data() + size_t(k)*16;
-    sum[0] += m.V;
-    for (label c = 0; c < nDim; ++c)
-    {
-        sum[13 + cells.axis(c)] += sign[c]*m.V;
-        sum[1 + cells.axis(c)] += scale[c]*(m.V*reached[c] - m.first[c]);
-        for (label d = 0; d < nDim; ++d)
-        {
-            // int N (x_I - x)_c (x_J - x)_d
-            const scalar product =
-                m.V*reached[c]*own[d]
-              - reached[c]*m.first[d]
-              - own[d]*m.first[c]
-              + m.second[3*c + d];
-            sum[4 + 3*cells.axis(c) + cells.axis(d)] +=
-                scale[c]*cells.spacing(d)*product;
-        }
-    }
+    add(k, about);
 }
 
 
@@ -475,6 +474,7 @@ void Foam::mpm::bodyNodes::forCells(const body& b, const Op& op) const
     const lattice& cells = grid_.cells();
     index3 first, last, i;
     if (!range(b, first, last)) return;
+    point corner(positionOf(index3(label(0)))), middle(corner);
     for (i[2] = first[2]; i[2] <= last[2]; ++i[2])
     for (i[1] = first[1]; i[1] <= last[1]; ++i[1])
     for (i[0] = first[0]; i[0] <= last[0]; ++i[0])
@@ -482,11 +482,12 @@ void Foam::mpm::bodyNodes::forCells(const body& b, const Op& op) const
         const label cell = grid_.index(i);
         if (!grid_.ownCell(cell)) continue;
 
-        const point corner(grid_.nodePosition(cell));
-        point middle(corner);
         for (label d = 0; d < cells.nDim(); ++d)
         {
-            middle[cells.axis(d)] += 0.5*cells.spacing(d);
+            const label axis = cells.axis(d);
+            corner[axis] =
+                cells.origin(d) + (i[d] + grid_.lower(d))*cells.spacing(d);
+            middle[axis] = corner[axis] + 0.5*cells.spacing(d);
         }
         op(cell, i, corner, middle);
     }
@@ -496,8 +497,7 @@ void Foam::mpm::bodyNodes::forCells(const body& b, const Op& op) const
 void Foam::mpm::bodyNodes::integrateClosed
 (
     const body& b,
-    const nodeFolding& folding,
-    std::vector<scalar>& sums
+    const nodeFolding& folding
 )
 {
     const lattice& cells = grid_.cells();
@@ -507,10 +507,15 @@ void Foam::mpm::bodyNodes::integrateClosed
 
     constexpr label nSub = 4;
     const dividedCell divided(grid_, nSub);
-    const label nSubs = divided.size();
-    const scalar dV = cells.cellVolume()/nSubs;
-    std::vector<moments> full(size), cut(size);
-    for (label sub = 0; sub < nSubs; ++sub) divided.add(full, sub, dV);
+    const std::vector<point> offset(divided.positions());
+    const scalar dV = cells.cellVolume()/offset.size();
+    std::vector<moments> full(size), fullAbout(size), cut(size);
+    std::vector<scalar> volume(offset.size(), dV);
+    divided.findMoments(volume, full);
+    for (label t = 0; t < size; ++t)
+    {
+        fullAbout[t] = aboutNode(full[t], t, reached_[t]);
+    }
 
     forCells
     (
@@ -531,31 +536,33 @@ void Foam::mpm::bodyNodes::integrateClosed
             const moments* m = full.data();
             if (!(phi < -diagonal - h/nSub))
             {
-                std::fill(cut.begin(), cut.end(), moments());
-                for (label sub = 0; sub < nSubs; ++sub)
+                for (size_t sub = 0; sub < offset.size(); ++sub)
                 {
-                    const point x(divided.position(corner, sub));
                     const scalar part = min
                     (
                         scalar(1),
-                        max(scalar(0), 0.5 - nSub*b.distance(x)/h)
+                        max
+                        (
+                            scalar(0),
+                            0.5 - nSub*b.distance(corner + offset[sub])/h
+                        )
                     );
-                    if (part > 0) divided.add(cut, sub, part*dV);
+                    volume[sub] = part*dV;
                 }
+                divided.findMoments(volume, cut);
                 m = cut.data();
             }
 
             const label s = folding.stencil(cell);
             for (label t = 0; t < size; ++t)
             {
-                if (!(m[t].V > 0)) continue;
-                const label ghost =
-                    cell + grid_.reachOffset() + grid_.reachNode(t);
-                const label target = s < 0 ? ghost : folding.targets(s)[t];
-                const label k = target < numberOf_.size()
-                  ? numberOf_[target] : -1;
+                if (!(m[t].V() > 0)) continue;
+                const label target =
+                    s < 0 ? cell + reachedNode_[t] : folding.targets(s)[t];
+                const label k = numberOf_[target];
                 if (k < 0) continue;
-                addFolded(cell, coordinate, t, k, m[t], folding, sums);
+                if (s < 0 && m == full.data()) add(k, fullAbout[t]);
+                else addFolded(coordinate, s, t, k, m[t], folding);
             }
         }
     );
@@ -565,8 +572,7 @@ void Foam::mpm::bodyNodes::integrateClosed
 void Foam::mpm::bodyNodes::integratePlate
 (
     const body& b,
-    const nodeFolding& folding,
-    std::vector<scalar>& sums
+    const nodeFolding& folding
 )
 {
     const lattice& cells = grid_.cells();
@@ -579,25 +585,84 @@ void Foam::mpm::bodyNodes::integratePlate
     // Coarser where that has to be done in each step
     const label nSub = (nDim == 3 ? 8 : 16)/(b.motion().moves() ? 2 : 1);
     const dividedCell divided(grid_, nSub);
-    const label nSubs = divided.size();
-    const scalar dV = cells.cellVolume()/nSubs;
 
-    // Parts of a cell: of each view, and last in the plate; where they are from
-    // the corner, the same in all cells
-    constexpr label inPlate = 3;
-    std::vector<vector> offset(nSubs);
-    for (label sub = 0; sub < nSubs; ++sub)
+    // Where the parts of a cell are from its corner, the same in all cells
+    std::vector<point> offset(divided.positions());
+    for (vector& place : offset) place = thin.components(place);
+    const scalar dV = cells.cellVolume()/offset.size();
+
+    // Half of what they take together; and how far from the plate all nodes in
+    // reach of a cell that have another view than it are buried
+    vector spacing(Zero);
+    for (label d = 0; d < nDim; ++d)
     {
-        offset[sub] = thin.components(divided.position(Zero, sub));
+        spacing[cells.axis(d)] = cells.spacing(d);
     }
-    std::vector<moments> full(size), cut[4];
+    const vector taken
+    (
+        thin.extents(0.5*(1 - 1.0/nSub)*spacing)
+      + vector::uniform(0.500001*h/nSub)
+    );
+    const vector reach
+    (
+        thin.extents(0.5*(grid_.reachWidth() - 1 + grid_.tileWidth())*spacing)
+    );
+
+    // Moments of the parts of a cell: of each view, and last in the plate. Those
+    // of cells between the edges differ by their height alone, which many share.
+    constexpr label inPlate = 3;
+    struct partMoments
+    {
+        scalar height = GREAT;
+        bool any[4];
+        std::vector<moments> of[4];
+    };
+    partMoments known[4];
+    label latest = 0;
+    std::vector<moments> full(size), fullAbout(size);
     std::vector<scalar> volume[4];
     for (label part = 0; part < 4; ++part)
     {
-        volume[part].assign(nSubs, dV);
-        cut[part].resize(size);
+        volume[part].assign(offset.size(), dV);
+        for (partMoments& cut : known) cut.of[part].resize(size);
     }
     divided.findMoments(volume[0], full);
+    for (label t = 0; t < size; ++t)
+    {
+        fullAbout[t] = aboutNode(full[t], t, reached_[t]);
+    }
+
+    auto cutAt = [&](const vector& corner, const bool between) -> partMoments&
+    {
+        for (partMoments& cut : known)
+        {
+            if (between && cut.height == corner[2]) return cut;
+        }
+        latest = (latest + 1) % 4;
+        partMoments& cut = known[latest];
+        cut.height = between ? corner[2] : GREAT;
+        for (bool& any : cut.any) any = false;
+        for (size_t sub = 0; sub < offset.size(); ++sub)
+        {
+            const vector place(corner + offset[sub]);
+            const FixedList<scalar, 4> parts
+            (
+                between
+              ? thin.partsBetweenEdges(place[2], h/nSub)
+              : thin.parts(place, h/nSub)
+            );
+            for (label part = 0; part < 4; ++part)
+            {
+                volume[part][sub] = parts[part]*dV;
+                cut.any[part] = cut.any[part] || parts[part] > 0;
+            }
+        }
+        for (label part = 0; part < 4; ++part)
+        {
+            if (cut.any[part]) divided.findMoments(volume[part], cut.of[part]);
+        }
+        return cut;
+    };
 
     forCells
     (
@@ -614,76 +679,60 @@ void Foam::mpm::bodyNodes::integratePlate
             const vector at(thin.local(middle));
             if (thin.farther(at, (body::reach + 2)*h + diagonal)) return;
 
-            if (grid_.plateOf(cell) >= 0 || b.distance(middle) < h + diagonal)
+            if (grid_.plateOf(cell) >= 0 || !thin.farther(at, h + diagonal))
             {
                 nearCells_.set(cell);
             }
 
-            // Wholly of one of them, or divided
-            const moments* of[4] = {nullptr, nullptr, nullptr, nullptr};
-            const FixedList<scalar, 4> whole
+            // Wholly in one part, or divided
+            const label whole = thin.whole(at, taken);
+            const scalar depth = thin.depthAt(at);
+            if
             (
-                thin.parts(at, 2*diagonal + h/nSub)
-            );
-            bool isCut = true;
-            for (label part = 0; part < 4; ++part)
+                whole >= 0 && mag(at[2]) > reach[2]
+             && depth > 2*max(reach[0], reach[1])
+            )
             {
-                if (whole[part] < 1) continue;
-                of[part] = full.data();
-                isCut = false;
+                return;
             }
-            if (isCut)
-            {
-                const vector first(thin.local(corner));
-                bool any[4] = {false, false, false, false};
-
-                const bool between = thin.depthAt(at) > 2*diagonal + h/nSub;
-                for (label sub = 0; sub < nSubs; ++sub)
-                {
-                    const vector place(first + offset[sub]);
-                    const FixedList<scalar, 4> parts
-                    (
-                        between
-                      ? thin.partsBetweenEdges(place[2], h/nSub)
-                      : thin.parts(place, h/nSub)
-                    );
-                    for (label part = 0; part < 4; ++part)
-                    {
-                        volume[part][sub] = parts[part]*dV;
-                        any[part] = any[part] || parts[part] > 0;
-                    }
-                }
-                for (label part = 0; part < 4; ++part)
-                {
-                    if (!any[part]) continue;
-                    divided.findMoments(volume[part], cut[part]);
-                    of[part] = cut[part].data();
-                }
-            }
+            const partMoments* cut =
+                whole >= 0 ? nullptr
+              : &cutAt(thin.local(corner), depth > max(taken[0], taken[1]));
 
             const label s = folding.stencil(cell);
             for (label t = 0; t < size; ++t)
             {
                 const label node =
-                    s < 0
-                  ? cell + grid_.reachOffset() + grid_.reachNode(t)
-                  : folding.targets(s)[t];
+                    s < 0 ? cell + reachedNode_[t] : folding.targets(s)[t];
                 for (const label record : {node, grid_.second(node)})
                 {
-                    const label k = record < 0 ? -1 : numberOf_[record];
-                    if (k < 0 || nodes_[k].buried) continue;
+                    if (record < 0) continue;
                     const label view = grid_.viewOf(record);
-                    moments unseen;
-                    for (label part = 0; part < 4; ++part)
+                    auto sees = [&](const label part)
                     {
-                        const bool sees =
+                        return
                             part == plate::none ? record == node
-                          : part == inPlate ? false
-                          : view == plate::none || view == part;
-                        if (of[part] && !sees) unseen += of[part][t];
+                          : part != inPlate
+                         && (view == plate::none || view == part);
+                    };
+                    if (whole >= 0 && sees(whole)) continue;
+                    const label k = numberOf_[record];
+                    if (k < 0 || nodes_[k].buried) continue;
+                    if (!cut && s < 0)
+                    {
+                        add(k, fullAbout[t]);
+                        continue;
                     }
-                    if (!(unseen.V > 0)) continue;
-                    addFolded(cell, coordinate, t, k, unseen, folding, sums);
+                    moments unseen;
+                    for (label part = 0; cut && part < 4; ++part)
+                    {
+                        if (cut->any[part] && !sees(part))
+                        {
+                            unseen += cut->of[part][t];
+                        }
+                    }
+                    const moments& m = cut ? unseen : full[t];
+                    if (m.V() > 0) addFolded(coordinate, s, t, k, m, folding);
                 }
             }
         }
@@ -693,25 +742,33 @@ void Foam::mpm::bodyNodes::integratePlate
 
 void Foam::mpm::bodyNodes::integrate(const nodeFolding& folding)
 {
-    std::vector<scalar> sums(nodes_.size()*16, 0);
+    const lattice& cells = grid_.cells();
+    sums_.assign(nodes_.size()*16, 0);
     nearCells_.reset();
     nearCells_.resize(grid_.nBoxNodes());
     for (label i = 0; i < bodies_.size(); ++i)
     {
         const body& b = bodies_[i];
-        if (b.thinPlate()) integratePlate(b, folding, sums);
-        else integrateClosed(b, folding, sums);
+        if (b.thinPlate()) integratePlate(b, folding);
+        else integrateClosed(b, folding);
     }
-    sum(sums);
+    sum(sums_);
     for (size_t k = 0; k < nodes_.size(); ++k)
     {
-        const scalar* s = sums.data() + k*16;
+        const scalar* s = sums_.data() + k*16;
         nodes_[k].V =
             nodes_[k].buried && nodes_[k].inverseVolume > 0
           ? 1/nodes_[k].inverseVolume : s[0];
-        nodes_[k].A = vector(s[1], s[2], s[3]);
-        for (label c = 0; c < 9; ++c) nodes_[k].T[c] = s[4 + c];
-        nodes_[k].W = vector(s[13], s[14], s[15]);
+        for (label c = 0; c < 3; ++c)
+        {
+            const label axis = cells.axis(c);
+            nodes_[k].A[axis] = s[1 + c];
+            nodes_[k].W[axis] = s[13 + c];
+            for (label d = 0; d < 3; ++d)
+            {
+                nodes_[k].T[3*axis + cells.axis(d)] = s[4 + 3*c + d];
+            }
+        }
     }
 }
 
@@ -722,14 +779,14 @@ void Foam::mpm::bodyNodes::findNeighbours()
     const bool is3D = cells.nDim() == 3;
     neighbours_.clear();
     neighbours_.reserve(size_t(size())*nNeighbours());
+
+    // Numbers follow each other, by way and record
+    std::vector<label> next(2*nNeighbours(), 0);
     for (label number = 0; number < size(); ++number)
     {
-        const int64_t id = id_[number];
-        const index3 at(coordinateOf(id));
-
-        // What it sees beside a plate: its own side
-        const plate* thin = plateAt(number);
-        const label view = nodes_[number].view;
+        const index3 at(coordinateOf(id_[number]));
+        const node& own = nodes_[number];
+        label way = 0;
         for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
         for (label j = -1; j <= 1; ++j)
         for (label i = -1; i <= 1; ++i)
@@ -751,14 +808,19 @@ void Foam::mpm::bodyNodes::findNeighbours()
                         )
                     );
             }
-            const label ofThere =
-                view == plate::none
-              ? label(plate::none) : thin->viewAt(positionOf(there));
-            const bool across = ofThere != plate::none && ofThere != view;
-            const auto found =
-                inside ? number_.find(globalId(there, across)) : number_.end();
-            neighbours_.push_back
-                (found == number_.end() ? -1 : found->second);
+            label found = inside ? find(globalId(there), next[way]) : -1;
+
+            // What it sees beside a plate: its own side
+            if (found >= 0 && own.view != plate::none)
+            {
+                const node& other = nodes_[found];
+                const bool across =
+                    other.body == own.body && other.view != plate::none
+                 && other.view != own.view;
+                if (across) found = find(globalId(there, true), next[way + 1]);
+            }
+            neighbours_.push_back(found);
+            way += 2;
         }
     }
 }
@@ -773,8 +835,33 @@ Foam::mpm::bodyNodes::bodyNodes
 )
 :
     grid_(grid),
-    bodies_(all)
-{}
+    bodies_(all),
+    scale_(scalar(0))
+{
+    const label T = grid_.reachWidth();
+    for (label t = 0; t < grid_.reachSize(); ++t)
+    {
+        const index3 place{t % T, (t/T) % T, t/(T*T)};
+        vector x(Zero);
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            x[d] = grid_.reachStart() + place[d];
+        }
+        reached_.push_back(x);
+    }
+    scale_[0] = 1;
+    for (label c = 0; c < grid_.nDim(); ++c)
+    {
+        const scalar scale =
+            1/(grid_.secondMoment()*grid_.cells().spacing(c));
+        scale_[1 + c] = scale;
+        scale_[13 + c] = 1;
+        for (label d = 0; d < grid_.nDim(); ++d)
+        {
+            scale_[4 + 3*c + d] = scale*grid_.cells().spacing(d);
+        }
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -786,6 +873,14 @@ bool Foam::mpm::bodyNodes::build
     const bool renewed
 )
 {
+    if (renewed)
+    {
+        reachedNode_.clear();
+        for (label t = 0; t < grid_.reachSize(); ++t)
+        {
+            reachedNode_.push_back(grid_.reachOffset() + grid_.reachNode(t));
+        }
+    }
     if (numberOf_.size() != grid_.nNodes())
     {
         local_.clear();
@@ -882,7 +977,7 @@ size_t Foam::mpm::bodyNodes::memory() const
         sizeof(node)*nodes_.capacity() + sizeof(int64_t)*id_.capacity()
       + sizeof(local)*local_.capacity()
       + sizeof(label)*(numberOf_.size() + neighbours_.capacity())
-      + 40*number_.size() + nearCells_.size()/8;
+      + sizeof(scalar)*sums_.capacity() + nearCells_.size()/8;
 }
 
 // ************************************************************************* //

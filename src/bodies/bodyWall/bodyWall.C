@@ -123,6 +123,8 @@ void Foam::mpm::bodyWall::findSlaves()
         const bool blunt = thin->thickness() > (1 + 1e-6)*h;
         return node.phi < near + 1e-6*h && (node.faced || blunt);
     };
+    std::vector<bool> isSlave(nodes_.size());
+    for (label k = 0; k < nodes_.size(); ++k) isSlave[k] = slaved(nodes_[k]);
 
     // By the ranks that have the cells of the image points
     struct found
@@ -137,14 +139,14 @@ void Foam::mpm::bodyWall::findSlaves()
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!slaved(node) || node.buried) continue;
+        if (!isSlave[k] || node.buried) continue;
 
         const point image(node.x + (imageDistance*h - node.phi)*node.n);
         nodes_.sourcesOf
         (
             image,
             boundary_.folding(),
-            [&](const label j) { return !slaved(nodes_[j]); },
+            [&](const label j) { return !isSlave[j]; },
             sources
         );
         if (sources.empty()) continue;
@@ -205,7 +207,7 @@ void Foam::mpm::bodyWall::findSlaves()
     for (label k = 0; k < nodes_.size(); ++k)
     {
         const bodyNodes::node& node = nodes_[k];
-        if (!slaved(node)) continue;
+        if (!isSlave[k]) continue;
 
         // Without masters a node moves with the body
         slave s{k, 0, noSlip_[node.body], 0, 0, 0, Zero};
@@ -426,7 +428,6 @@ void Foam::mpm::bodyWall::put(const bool renewed)
     if (renewed) findFree();
     else if (others) takeFree(freeOfWalls_, givenByWalls_);
     findSlaves();
-    fromBody_ = bodyParts();
 }
 
 
@@ -597,8 +598,8 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
     nodes_.gather(nodes.momentum, 1, momentum, mass_);
 
     velocity_.assign(n, Zero);
-    ownVelocity_.assign(n, Zero);
-    inverseMass_.assign(n, Zero);
+    ownVelocity_.resize(n);
+    inverseMass_.resize(n);
     for (label k = 0; k < n; ++k)
     {
         // What walls hold does not move its mass
@@ -616,16 +617,19 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
         slave& s = slaves_[i];
         const bodyNodes::node& node = nodes_[s.number];
         if (mass_[s.number] > 0) heavySlaves_.push_back(label(i));
-        s.own =
+        ownVelocity_[s.number] = Zero;
+        const scalar own =
             s.first == s.last ? (s.noSlip ? 0 : 1)
           : !s.noSlip && node.smooth && node.phi > -ownDepth*h
          && (mass_[s.number]/rho0_ + node.V)*node.inverseVolume > ownFilling
           ? ownPart : 0;
+        if (own == s.own) continue;
+        s.own = own;
         s.factor = factor(s, s.r);
     }
 
     // Masses of the masters, with those of their slaves
-    std::vector<tensor> mass(n, Zero);
+    std::vector<tensor>& mass = inverseMass_;
     for (const label k : masters_) mass[k] = mass_[k]*tensor(I);
     for (const label i : heavySlaves_)
     {
@@ -659,7 +663,11 @@ void Foam::mpm::bodyWall::start(nodeMotion& nodes)
     for (const label k : masters_)
     {
         const scalar scale = tr(mass[k]);
-        if (!(scale > 0)) continue;
+        if (!(scale > 0))
+        {
+            inverseMass_[k] = Zero;
+            continue;
+        }
         heavyMasters_.push_back(k);
         if (grid_.nDim() == 2)
         {

@@ -302,14 +302,14 @@ void Foam::mpm::soilCloud::findSideMemories
     const size_t nSides = 2*grid_.plates().size();
     scalarList largest(label(nSides), scalar(0));
     scalarList leastVoid(label(nSides), -GREAT);
-    for (const soilCloud* soil : skeleton_->clouds())
+    for (soilCloud* soil : skeleton_->clouds())
     {
         const label* tile = soil->points_.tile();
         const label* cell = soil->points_.cell();
-        for (label p = 0; p < soil->size(); ++p)
+        auto add = [&](const label p)
         {
             const label view = tiles.viewOf(tile[p]);
-            if (view == plate::none) continue;
+            if (view == plate::none) return;
             const label side = 2*grid_.plateOf(cell[p]) + view - plate::front;
             const scalar e = soil->voidRatio()[p];
             largest[side] = max
@@ -317,7 +317,14 @@ void Foam::mpm::soilCloud::findSideMemories
                 largest[side], soil->model_->waveSpeedSqr(soil->pressure(p), e)
             );
             leastVoid[side] = max(leastVoid[side], -e);
+        };
+
+        // What is near follows the bodies
+        if (soil->nearGroup_.empty() || bodies_->anyMoves())
+        {
+            soil->findNearGroups();
         }
+        soil->forNearGroups(add);
     }
     Pstream::listCombineGather(largest, maxEqOp<scalar>());
     Pstream::listCombineScatter(largest);

@@ -229,7 +229,7 @@ const Foam::mpm::plate* Foam::mpm::placedRegions::plateThrough
     const scalar reach = 0.5*mag(size)/nPerDirection_;
     for (const plate& thin : cloud_.grid().plates())
     {
-        if (thin.depth(x) > -reach && mag(thin.height(x)) < reach)
+        if (thin.depthAt(thin.local(x)) > -reach && mag(thin.height(x)) < reach)
         {
             return &thin;
         }
