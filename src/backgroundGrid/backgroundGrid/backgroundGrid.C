@@ -663,7 +663,8 @@ void Foam::mpm::backgroundGrid::setPlates(const std::vector<plate>& plates)
 
 bool Foam::mpm::backgroundGrid::recordsStale()
 {
-    // Most steps are too short for that
+    // Most steps are too short for that. What goes along itself on the grid, as
+    // gates do, keeps nodes that are exactly as high as it is asked for
     bool moved = looked_.size() != plates_.size();
     for (size_t p = 0; !moved && p < plates_.size(); ++p)
     {
@@ -671,7 +672,7 @@ bool Foam::mpm::backgroundGrid::recordsStale()
         const vector change(plates_[p].change(looked.where, looked.radius));
         const scalar rounding = 1e-9*lattice_->minSpacing();
         moved =
-            change[2] + rounding > looked.normal
+            (change[2] > 0 && change[2] + rounding > looked.normal)
          || max(change[0], change[1]) + rounding > looked.along;
     }
     return returnReduce(moved && findPlated() != plated_, orOp<bool>());

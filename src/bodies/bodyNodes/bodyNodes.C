@@ -144,10 +144,11 @@ bool Foam::mpm::bodyNodes::findIds(const std::vector<scalar>& inverseVolume)
 
 Foam::label Foam::mpm::bodyNodes::find(const int64_t id, label& next) const
 {
-    if (next >= size() || id_[next] != id)
+    if (next > 0 && id_[next - 1] >= id)
     {
         next = label(std::lower_bound(id_.begin(), id_.end(), id) - id_.begin());
     }
+    while (next < size() && id_[next] < id) ++next;
     return next < size() && id_[next] == id ? next++ : -1;
 }
 
@@ -616,7 +617,13 @@ void Foam::mpm::bodyNodes::integratePlate
         scalar height = GREAT;
         bool any[4];
         std::vector<moments> of[4];
+
+        // Of what a record does not see, about its node, once asked for: by kind
+        // of record and node in reach
+        std::vector<moments> unseen;
+        std::vector<char> known;
     };
+    constexpr label nKinds = 5;
     partMoments known[4];
     label latest = 0;
     std::vector<moments> full(size), fullAbout(size);
@@ -626,6 +633,7 @@ void Foam::mpm::bodyNodes::integratePlate
         volume[part].assign(offset.size(), dV);
         for (partMoments& cut : known) cut.of[part].resize(size);
     }
+    for (partMoments& cut : known) cut.unseen.resize(nKinds*size);
     divided.findMoments(volume[0], full);
     for (label t = 0; t < size; ++t)
     {
@@ -642,6 +650,7 @@ void Foam::mpm::bodyNodes::integratePlate
         partMoments& cut = known[latest];
         cut.height = between ? corner[2] : GREAT;
         for (bool& any : cut.any) any = false;
+        cut.known.assign(nKinds*size, false);
         for (size_t sub = 0; sub < offset.size(); ++sub)
         {
             const vector place(corner + offset[sub]);
@@ -695,7 +704,7 @@ void Foam::mpm::bodyNodes::integratePlate
             {
                 return;
             }
-            const partMoments* cut =
+            partMoments* cut =
                 whole >= 0 ? nullptr
               : &cutAt(thin.local(corner), depth > max(taken[0], taken[1]));
 
@@ -723,6 +732,13 @@ void Foam::mpm::bodyNodes::integratePlate
                         add(k, fullAbout[t]);
                         continue;
                     }
+                    const label kind = record == node ? view : 2 + view;
+                    const size_t i = size_t(kind)*size + t;
+                    if (s < 0 && cut->known[i])
+                    {
+                        add(k, cut->unseen[i]);
+                        continue;
+                    }
                     moments unseen;
                     for (label part = 0; cut && part < 4; ++part)
                     {
@@ -731,8 +747,15 @@ void Foam::mpm::bodyNodes::integratePlate
                             unseen += cut->of[part][t];
                         }
                     }
-                    const moments& m = cut ? unseen : full[t];
-                    if (m.V() > 0) addFolded(coordinate, s, t, k, m, folding);
+                    if (s >= 0)
+                    {
+                        const moments& m = cut ? unseen : full[t];
+                        addFolded(coordinate, s, t, k, m, folding);
+                        continue;
+                    }
+                    cut->unseen[i] = aboutNode(unseen, t, reached_[t]);
+                    cut->known[i] = true;
+                    add(k, cut->unseen[i]);
                 }
             }
         }
@@ -781,10 +804,19 @@ void Foam::mpm::bodyNodes::findNeighbours()
     neighbours_.reserve(size_t(size())*nNeighbours());
 
     // Numbers follow each other, by way and record
+    const int64_t n = nIds();
+    const int64_t stride[3] =
+        {1, width(0), is3D ? int64_t(width(0))*width(1) : 0};
+    bool periodic = false;
+    for (label d = 0; d < cells.nDim(); ++d)
+    {
+        periodic = periodic || cells.periodic(d);
+    }
     std::vector<label> next(2*nNeighbours(), 0);
     for (label number = 0; number < size(); ++number)
     {
         const index3 at(coordinateOf(id_[number]));
+        const int64_t first = id_[number] % n;
         const node& own = nodes_[number];
         label way = 0;
         for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)
@@ -808,7 +840,10 @@ void Foam::mpm::bodyNodes::findNeighbours()
                         )
                     );
             }
-            label found = inside ? find(globalId(there), next[way]) : -1;
+            const int64_t id =
+                periodic ? globalId(there)
+              : first + i*stride[0] + j*stride[1] + k*stride[2];
+            label found = inside ? find(id, next[way]) : -1;
 
             // What it sees beside a plate: its own side
             if (found >= 0 && own.view != plate::none)
@@ -817,7 +852,7 @@ void Foam::mpm::bodyNodes::findNeighbours()
                 const bool across =
                     other.body == own.body && other.view != plate::none
                  && other.view != own.view;
-                if (across) found = find(globalId(there, true), next[way + 1]);
+                if (across) found = find(id + n, next[way + 1]);
             }
             neighbours_.push_back(found);
             way += 2;
