@@ -35,6 +35,10 @@ Foam::mpm::wallNodes::wallNodes
     grid.exchange().sum(given_);
     grid.copyToSeconds(count_);
     grid.copyToSeconds(given_);
+    for (label node = 0; node < grid_.nNodes(); ++node)
+    {
+        if (nSides(node) > 0) onWalls_.push_back(node);
+    }
 }
 
 

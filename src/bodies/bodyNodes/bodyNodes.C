@@ -32,6 +32,23 @@ Foam::mpm::index3 Foam::mpm::bodyNodes::coordinateOf(const int64_t id) const
 }
 
 
+void Foam::mpm::bodyNodes::follow
+(
+    const int64_t id,
+    int64_t& last,
+    index3& at
+) const
+{
+    const int64_t x = at[0] + id - last;
+    if (last >= 0 && id >= last && x < width(0) - backgroundGrid::margin)
+    {
+        at[0] = label(x);
+    }
+    else at = coordinateOf(id);
+    last = id;
+}
+
+
 Foam::point Foam::mpm::bodyNodes::positionOf(const index3& at) const
 {
     const lattice& cells = grid_.cells();
@@ -216,9 +233,12 @@ void Foam::mpm::bodyNodes::number(const std::vector<scalar>& inverseVolume)
         if (gives) inverse[k] = inverseVolume[o.second];
     }
     sum(inverse);
+    index3 at(label(0));
+    int64_t before = -1;
     for (size_t k = 0; k < nodes_.size(); ++k)
     {
-        nodes_[k].x = positionOf(coordinateOf(id_[k]));
+        follow(id_[k], before, at);
+        nodes_[k].x = positionOf(at);
         nodes_[k].inverseVolume = inverse[k];
         nodes_[k].free = vector::one;
         nodes_[k].given = Zero;
@@ -609,45 +629,33 @@ void Foam::mpm::bodyNodes::integratePlate
         thin.extents(0.5*(grid_.reachWidth() - 1 + grid_.tileWidth())*spacing)
     );
 
-    // Moments of the parts of a cell: of each view, and last in the plate. Those
-    // of cells between the edges differ by their height alone, which many share.
     constexpr label inPlate = 3;
-    struct partMoments
-    {
-        scalar height = GREAT;
-        bool any[4];
-        std::vector<moments> of[4];
-
-        // Of what a record does not see, about its node, once asked for: by kind
-        // of record and node in reach
-        std::vector<moments> unseen;
-        std::vector<char> known;
-    };
     constexpr label nKinds = 5;
-    partMoments known[4];
     label latest = 0;
     std::vector<moments> full(size), fullAbout(size);
     std::vector<scalar> volume[4];
-    for (label part = 0; part < 4; ++part)
+    for (auto& ofPart : volume) ofPart.assign(offset.size(), dV);
+    cuts_.resize(4);
+    for (cutCell& cut : cuts_)
     {
-        volume[part].assign(offset.size(), dV);
-        for (partMoments& cut : known) cut.of[part].resize(size);
+        cut.height = GREAT;
+        for (auto& ofPart : cut.of) ofPart.resize(size);
+        cut.unseen.resize(nKinds*size);
     }
-    for (partMoments& cut : known) cut.unseen.resize(nKinds*size);
     divided.findMoments(volume[0], full);
     for (label t = 0; t < size; ++t)
     {
         fullAbout[t] = aboutNode(full[t], t, reached_[t]);
     }
 
-    auto cutAt = [&](const vector& corner, const bool between) -> partMoments&
+    auto cutAt = [&](const vector& corner, const bool between) -> cutCell&
     {
-        for (partMoments& cut : known)
+        for (cutCell& cut : cuts_)
         {
             if (between && cut.height == corner[2]) return cut;
         }
         latest = (latest + 1) % 4;
-        partMoments& cut = known[latest];
+        cutCell& cut = cuts_[latest];
         cut.height = between ? corner[2] : GREAT;
         for (bool& any : cut.any) any = false;
         cut.known.assign(nKinds*size, false);
@@ -704,7 +712,7 @@ void Foam::mpm::bodyNodes::integratePlate
             {
                 return;
             }
-            partMoments* cut =
+            cutCell* cut =
                 whole >= 0 ? nullptr
               : &cutAt(thin.local(corner), depth > max(taken[0], taken[1]));
 
@@ -813,10 +821,12 @@ void Foam::mpm::bodyNodes::findNeighbours()
         periodic = periodic || cells.periodic(d);
     }
     std::vector<label> next(2*nNeighbours(), 0);
+    index3 at(label(0));
+    int64_t last = -1;
     for (label number = 0; number < size(); ++number)
     {
-        const index3 at(coordinateOf(id_[number]));
-        const int64_t first = id_[number] % n;
+        follow(id_[number], last, at);
+        const int64_t first = id_[number] < n ? id_[number] : id_[number] - n;
         const node& own = nodes_[number];
         label way = 0;
         for (label k = (is3D ? -1 : 0); k <= (is3D ? 1 : 0); ++k)

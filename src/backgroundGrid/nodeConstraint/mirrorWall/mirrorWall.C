@@ -110,7 +110,7 @@ void Foam::mpm::mirrorWall::addGhosts()
 
 void Foam::mpm::mirrorWall::build(const wallNodes& walls)
 {
-    for (label node = 0; node < grid_.nNodes(); ++node)
+    for (const label node : walls.onWalls())
     {
         if (!walls.given(node)) continue;
         fixedNodes_.append(node);
