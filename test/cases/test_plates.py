@@ -15,7 +15,7 @@ from plates import (blobs, discharge, forces, gate, height, inclined, motions,
 
 
 @pytest.mark.parametrize("degrees", [90, 60, 120])
-@pytest.mark.parametrize("thickness", [0.1, 0.5, 1, 2])
+@pytest.mark.parametrize("thickness", [0.1, 0.5, 1, 2, 8])
 def testWaterOnOneSide(tmp_path, figures, thickness, degrees):
     """Still water to the left of a plate, nothing to the right of it"""
     setup, start, end, volume = oneSided(thickness, degrees)

@@ -706,8 +706,8 @@ void Foam::mpm::bodyNodes::integratePlate
             const scalar depth = thin.depthAt(at);
             if
             (
-                whole >= 0 && mag(at[2]) > reach[2]
-             && depth > 2*max(reach[0], reach[1])
+                (whole == plate::front || whole == plate::back)
+             && mag(at[2]) > reach[2] && depth > 2*max(reach[0], reach[1])
             )
             {
                 return;
@@ -721,10 +721,13 @@ void Foam::mpm::bodyNodes::integratePlate
             {
                 const label node =
                     s < 0 ? cell + reachedNode_[t] : folding.targets(s)[t];
-                for (const label record : {node, grid_.second(node)})
+                const label second = grid_.second(node);
+                const label own =
+                    second < 0 ? label(plate::none) : grid_.viewOf(node);
+                if (second < 0 && whole >= 0 && whole != inPlate) continue;
+
+                auto take = [&](const label record, const label view)
                 {
-                    if (record < 0) continue;
-                    const label view = grid_.viewOf(record);
                     auto sees = [&](const label part)
                     {
                         return
@@ -732,20 +735,20 @@ void Foam::mpm::bodyNodes::integratePlate
                           : part != inPlate
                          && (view == plate::none || view == part);
                     };
-                    if (whole >= 0 && sees(whole)) continue;
+                    if (whole >= 0 && sees(whole)) return;
                     const label k = numberOf_[record];
-                    if (k < 0 || nodes_[k].buried) continue;
+                    if (k < 0 || nodes_[k].buried) return;
                     if (!cut && s < 0)
                     {
                         add(k, fullAbout[t]);
-                        continue;
+                        return;
                     }
                     const label kind = record == node ? view : 2 + view;
                     const size_t i = size_t(kind)*size + t;
                     if (s < 0 && cut->known[i])
                     {
                         add(k, cut->unseen[i]);
-                        continue;
+                        return;
                     }
                     moments unseen;
                     for (label part = 0; cut && part < 4; ++part)
@@ -759,12 +762,14 @@ void Foam::mpm::bodyNodes::integratePlate
                     {
                         const moments& m = cut ? unseen : full[t];
                         addFolded(coordinate, s, t, k, m, folding);
-                        continue;
+                        return;
                     }
                     cut->unseen[i] = aboutNode(unseen, t, reached_[t]);
                     cut->known[i] = true;
                     add(k, cut->unseen[i]);
-                }
+                };
+                take(node, own);
+                if (second >= 0) take(second, plate::front + plate::back - own);
             }
         }
     );
