@@ -233,6 +233,40 @@ def testTime(tmp_path, figures):
     figures.holds("--rest is noted", "from rest, as asked" in done.stdout)
 
 
+def compressed(source):
+    for key, value in [("writeFormat", "ascii"), ("writeCompression", "on")]:
+        setEntry(source/"system"/"controlDict", key, value)
+    return source
+
+
+def testCompressed(tmp_path, figures):
+    """Mesh and fields as blockMesh and setFields leave them with
+    writeCompression, there and back"""
+    source = compressed(interFoamCase(tmp_path/"tank"))
+    shutil.copytree(source/"0.orig", source/"0")
+    shutil.rmtree(source/"0.orig")
+    for command in ["blockMesh", "setFields"]:
+        assert call(command, cwd=source).returncode == 0
+    figures.holds("the mesh is compressed", (
+        source/"constant"/"polyMesh"/"points.gz").is_file())
+    figures.holds("alpha is compressed", (
+        source/"0"/"alpha.water.gz").is_file())
+    done = call("interFoamToMpmFoam", source, tmp_path/"new")
+    print(done.stdout + done.stderr)
+    figures.equal("exit status", done.returncode, 0)
+    new = compressed(_started(tmp_path/"new"))
+    assert call("setMaterialPoints", cwd=new).returncode == 0
+    c = Case(new)
+    figures.holds("points are compressed", (
+        new/"0"/"lagrangian"/"water"/"mass.gz").is_file())
+    figures.equal("points", len(c.cloudField("0", "water", "x")), 12*10*16)
+    figures.equal("points of the state", c.cloudState("0", "water")["nPoints"],
+                  12*10*16)
+    done = call("mpmFoamToInterFoam", new, tmp_path/"back")
+    print(done.stdout + done.stderr)
+    figures.equal("back: exit status", done.returncode, 0)
+
+
 def testBinaryAndMacros(tmp_path, figures):
     """As setFields leaves it with writeFormat binary; a velocity by a macro;
     a patch that only the case's Allrun would make"""
@@ -472,8 +506,8 @@ def testOthersRefused(tmp_path, figures):
 
 def testCompare(tmp_path, figures):
     """A small dam break by both: table, figure, and results that agree as
-    well as cells of 1 cm let them"""
-    source = interFoamCase(tmp_path/"tank")
+    well as cells of 1 cm let them. interFoam's files are compressed"""
+    source = compressed(interFoamCase(tmp_path/"tank"))
     done = call("compareInterFoam", source, "--endTime", 0.15,
                 "--writeInterval", 0.03)
     print(done.stdout[-2500:] + done.stderr[-2500:])
@@ -488,6 +522,7 @@ def testCompare(tmp_path, figures):
     figures.atMost("profiles, rms over the depth",
                    m["profileDifferenceRms"], 0.08)
     figures.holds("figure", (out/"comparison.png").stat().st_size > 20000)
+    figures.holds("compressed", any(out.rglob("alpha.water.gz")))
     again = call("compareInterFoam", source)
     figures.equal("a second call runs nothing", again.stdout.count(
         "finished before"), 2)

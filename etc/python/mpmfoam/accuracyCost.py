@@ -15,7 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import costStudy, foamDict, metrics, reference, runLog, study
+from . import costStudy, foamDict, foamFile, metrics, reference, runLog
+from . import study
 from .costStudy import MPM, POINTS, PROPERTIES, merged
 from .foamFile import FoamFileError
 from .mesh import Lattice, Mesh
@@ -394,7 +395,7 @@ class Study:
             if done.returncode:
                 raise AccuracyCostError(f"{self.case}: blockMesh failed:\n"
                                         + (done.stdout + done.stderr)[-1500:])
-        elif not (new/"constant"/"polyMesh"/"points").is_file():
+        elif not foamFile.stored(new/"constant"/"polyMesh"/"points"):
             raise AccuracyCostError(
                 f"{self.case}: neither system/blockMeshDict nor "
                 "constant/polyMesh")

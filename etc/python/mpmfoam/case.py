@@ -47,7 +47,7 @@ class Case:
         for root in self._cloudRoots(time, cloud):
             path = root/time/"lagrangian"/cloud/name
             # A rank without points may have no files
-            if path.is_file():
+            if foamFile.stored(path):
                 parts.append(foamFile.readList(path))
         if not parts:
             raise FileNotFoundError(
@@ -57,14 +57,8 @@ class Case:
     def cloudState(self, time, cloud):
         """Numbers of a cloud in uniform/materialPoints, sums over all ranks:
         nPoints, left, leftMass, wallContacts, ..."""
-        for root in [self.path, *self.processors]:
-            path = root/time/"uniform"/"materialPoints"
-            if path.is_file():
-                break
-        found = re.search(rf"^{cloud}\s*\{{(.*?)^\}}", path.read_text(),
-                          re.DOTALL | re.MULTILINE)
         # Without the dictionaries in it
-        text, nested = found[1], 1
+        text, nested = self._state(time, cloud), 1
         while nested:
             text, nested = re.subn(r"\w+\s*\{[^{}]*\}", "", text)
         return {key: float(value) for key, value in re.findall(
@@ -73,15 +67,18 @@ class Case:
     def enteredMass(self, time, cloud):
         """Mass that came in through the inlets of a cloud, from the state
         file (which has sums over all ranks)"""
-        for root in [self.path, *self.processors]:
-            path = root/time/"uniform"/"materialPoints"
-            if path.is_file():
-                break
-        # The cloud's dictionary ends where a line is nothing but a brace
-        found = re.search(rf"^{cloud}\s*\n\{{(.*?)^\}}", path.read_text(),
-                          re.DOTALL | re.MULTILINE)
         return sum(float(m) for m in re.findall(
-            r"\benteredMass\s+([-+0-9.e]+);", found[1]))
+            r"\benteredMass\s+([-+0-9.e]+);", self._state(time, cloud)))
+
+    def _state(self, time, cloud):
+        """What uniform/materialPoints says of a cloud"""
+        paths = [root/time/"uniform"/"materialPoints"
+                 for root in [self.path, *self.processors]]
+        path = next(filter(foamFile.stored, paths), paths[-1])
+        # The cloud's dictionary ends where a line is nothing but a brace
+        return re.search(rf"^{cloud}\s*\n\{{(.*?)^\}}",
+                         foamFile.read(path).decode(),
+                         re.DOTALL | re.MULTILINE)[1]
 
     def field(self, time, name):
         """The internal field of a vol<Type>Field, e.g. alpha.water"""
@@ -132,7 +129,7 @@ _centreCache = {}
 def _centres(root):
     """Cell centres of a mesh of boxes: the mean of the centres of its faces"""
     mesh = root/"constant"/"polyMesh"
-    key = (mesh.resolve(), (mesh/"points").stat().st_mtime_ns)
+    key = (mesh.resolve(), foamFile.stored(mesh/"points").stat().st_mtime_ns)
     if key not in _centreCache:
         points = foamFile.readList(mesh/"points")
         faces = points[foamFile.readFaces(mesh/"faces")].mean(axis=1)

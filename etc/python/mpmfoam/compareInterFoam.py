@@ -42,7 +42,7 @@ class Run:
         self.empty = self.mesh.emptyDirection
         # Those with fields; mpmFoam's start has none
         self.times = [t for t in self.case.times()
-                      if (self.path/t/self.alphaName).is_file()]
+                      if foamFile.stored(self.path/t/self.alphaName)]
         self._cache = {}
 
     @property
@@ -387,7 +387,7 @@ def solve(path, solver):
         return
     if not (path/"0").is_dir():
         shutil.copytree(path/"0.orig", path/"0")
-    if not (path/"constant"/"polyMesh"/"points").is_file():
+    if not foamFile.stored(path/"constant"/"polyMesh"/"points"):
         fromInterFoam.run(path, "blockMesh")
     if solver == "mpmFoam":
         fromInterFoam.run(path, "setMaterialPoints")

@@ -1,7 +1,10 @@
-"""Lists and internal fields of OpenFOAM files, ascii or binary."""
+"""Lists and internal fields of OpenFOAM files, ascii or binary, compressed
+or not."""
 
+import gzip
 import re
 import subprocess
+from pathlib import Path
 
 import numpy as np
 
@@ -19,6 +22,20 @@ _COMMENT = re.compile(rb"\s*(//[^\n]*|/\*.*?\*/)?\s*", re.DOTALL)
 
 class FoamFileError(Exception):
     """A file that is no OpenFOAM file, or not of the kind asked for."""
+
+
+def stored(path):
+    """Where a file lies: under its name or, with writeCompression on, with
+    .gz behind it; None if there is neither"""
+    path = Path(path)
+    return next((p for p in [path, path.with_name(path.name + ".gz")]
+                 if p.is_file()), None)
+
+
+def read(path):
+    """The bytes of a file, compressed or not"""
+    data = (stored(path) or Path(path)).read_bytes()
+    return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
 
 
 def isBinary(path):
@@ -114,8 +131,7 @@ def readFaceLists(path):
 
 def _open(path):
     """Content, header entries, and the position behind the header"""
-    with open(path, "rb") as file:
-        data = file.read()
+    data = read(path)
     found = _HEADER.search(data[:4096])
     if not found:
         raise FoamFileError(f"{path}: no FoamFile header")

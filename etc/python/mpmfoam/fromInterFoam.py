@@ -62,9 +62,23 @@ def workingCopy(case, target):
     if not start.is_dir():
         raise FoamFileError(f"{case}: no directory 0 or 0.orig")
     shutil.copytree(start, target/"0")
+    uncompress(target)
     for path in (target/"0").glob("*.orig"):
         if not path.with_suffix("").exists() or start.name == "0.orig":
             shutil.copyfile(path, path.with_suffix(""))
+
+
+def uncompress(work):
+    """Files of a working copy, and those that applications write into it, by
+    the names that they have without writeCompression"""
+    for path in work.rglob("*.gz"):
+        path.with_suffix("").write_bytes(foamFile.read(path))
+        path.unlink()
+    control = work/"system"/"controlDict"
+    if control.is_file() and "writeCompression" in control.read_text():
+        run(work, "foamDictionary", "system/controlDict",
+            "-disableFunctionEntries", "-entry", "writeCompression", "-set",
+            "off")
 
 
 def patchEntry(boundary, patch, path):
@@ -228,7 +242,8 @@ class InterFoamCase:
                     f"{self.case}/constant/dynamicMeshDict: entry "
                     f"dynamicFvMesh has the value {kind}.\n    Allowed: "
                     "staticFvMesh, dynamicRefineFvMesh: a mesh that moves "
-                    "cannot be carried over")
+                    "cannot be carried over; a tank that moves as a whole: "
+                    "convert it at rest, then docs/howto/movingFrame.md")
         for path in [constant/"fvOptions", system/"fvOptions",
                      constant/"MRFProperties", constant/"porosityProperties"]:
             if path.is_file():
@@ -292,6 +307,7 @@ class InterFoamCase:
             if self.time != "0" or source.name == "0":
                 shutil.rmtree(self.work/self.time, ignore_errors=True)
                 shutil.copytree(source, self.work/self.time)
+                uncompress(self.work)
         name = f"alpha.{self.phase}"
         n = self.mesh.nCells
         alpha = foamFile.readInternalField(self._field(name), n)

@@ -34,7 +34,7 @@ class Mesh:
 
     def __init__(self, case):
         directory = Path(case)/"constant"/"polyMesh"
-        if not (directory/"points").is_file():
+        if not foamFile.stored(directory/"points"):
             raise FoamFileError(f"{directory}: no mesh; run blockMesh")
         self.points = foamFile.readList(directory/"points")
         starts, labels = foamFile.readFaceLists(directory/"faces")
@@ -143,7 +143,7 @@ class Mesh:
 
 def readBoundary(path):
     """Patches of constant/polyMesh/boundary"""
-    data = Path(path).read_bytes().decode("ascii", errors="replace")
+    data = foamFile.read(path).decode("ascii", errors="replace")
     entries = foamDict.parse(data, path)
     entries.pop("FoamFile", None)
     lists = [v for v in entries.values() if isinstance(v, list)]

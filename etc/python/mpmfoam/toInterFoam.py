@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import foamDict, study
+from . import foamDict, foamFile, study
 from .foamFile import FoamFileError
-from .fromInterFoam import Notes, _plain, patchEntry, run, uniform
+from .fromInterFoam import (
+    Notes, _plain, patchEntry, run, uncompress, uniform)
 from .mesh import Mesh
 
 AIR = {"rho": 1.0, "nu": 1.48e-5}
@@ -29,10 +30,11 @@ class MpmCase:
             shutil.copytree(self.case/part, self.work/part)
         start = self.case/"0.orig" if (self.case/"0.orig").is_dir() \
             else self.case/"0"
-        if not (start/"U.water").is_file():
+        if not foamFile.stored(start/"U.water"):
             raise FoamFileError(f"{start}/U.water: no such file")
         shutil.copytree(start, self.work/"0", ignore=shutil.ignore_patterns(
             "lagrangian", "uniform"))
+        uncompress(self.work)
         if not (self.work/"constant"/"polyMesh"/"points").is_file():
             run(self.work, "blockMesh")
         self.mesh = Mesh(self.work)
