@@ -436,6 +436,39 @@ def testCompressed(tmp_path, figures, damage):
                   bool(damage))
 
 
+@pytest.mark.parametrize("handler", ["collated", "masterUncollated"])
+def testFileHandler(tmp_path, figures, monkeypatch, handler):
+    """Files of all ranks in one, and files that the master reads for all: the
+    same run, also where one rank has no water; a time that was cut off is set
+    aside"""
+    plain = damBreak().steps(10).write(tmp_path/"plain").prepare()
+    case = plain.clone(tmp_path/"case")
+    plain.decompose(2).solve(ranks=2)
+    plain.run("reconstructPar")
+
+    monkeypatch.setenv("FOAM_FILEHANDLER", handler)
+    case.decompose(2).solve(ranks=2)
+    case.run("reconstructPar")
+    steps = sorted(plain.timesByStep())
+    figures.equal("steps", sorted(case.timesByStep()), steps)
+    figures.equal("steps with files that differ", [
+        k for k in steps if differing(case, plain, k)], [])
+
+    last = case.timesByStep()[steps[-1]]
+    ranks = case.path/("processors2" if handler == "collated"
+                       else "processor0")
+    whole = (ranks/last/CLOUD/"x").read_bytes()
+    (ranks/last/CLOUD/"x").write_bytes(whole[:-200])
+    for name in case.timesByStep().values():
+        if float(name) > 0:
+            shutil.rmtree(case.path/name)
+    text = case.solve(ranks=2).text
+    figures.holds("named", f"Time directory {last} is incomplete" in text)
+    figures.holds("set aside", (ranks/f"{last}.incomplete").is_dir())
+    figures.holds("the same again",
+                  (ranks/last/CLOUD/"x").read_bytes() == whole)
+
+
 def limitFileSize(bytes_):
     """For a child process: no file grows beyond this, as on a full disk"""
     def limit():

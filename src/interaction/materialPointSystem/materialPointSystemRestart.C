@@ -10,12 +10,14 @@ License
 #include "PstreamReduceOps.H"
 #include "cloud.H"
 #include "bodies.H"
+#include "fileOperation.H"
 #include "exactDigits.H"
 #include "lagrangianOutput.H"
 #include "waterCloud.H"
 #include "soilCloud.H"
 #include "phasePair.H"
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <sys/statvfs.h>
 
@@ -26,10 +28,45 @@ const Foam::word Foam::mpm::materialPointSystem::stateName("materialPoints");
 namespace
 {
 
-//- Does the last line of a file hold the comment that OpenFOAM ends with.
-//  The file may be compressed (writeCompression).
-bool ended(const Foam::fileName& path)
+//- Has a collated file its blocks of all ranks, "// Processor<i> n (bytes)"
+bool allBlocks(std::istream& file, const Foam::label nRanks)
 {
+    std::string line;
+    Foam::label n = 0;
+    while (std::getline(file, line))
+    {
+        if (line.compare(0, 12, "// Processor")) continue;
+
+        std::streamsize size = 0;
+        file >> size;
+        while (file.good() && file.get() != '(') {}
+        file.ignore(size);
+        if (file.get() != ')') return false;
+        ++n;
+    }
+    return n == nRanks;
+}
+
+
+//- Does the last line of a file hold the comment that OpenFOAM ends with.
+//  The file may be compressed (writeCompression), or hold a block of each of
+//  nRanks ranks (collated).
+bool ended(const Foam::fileName& path, const Foam::label nRanks)
+{
+    if (nRanks)
+    {
+        Foam::IFstream whole(path, Foam::IOstream::BINARY);
+        std::string line;
+        while (whole.good() && std::getline(whole.stdStream(), line))
+        {
+            if (line.find("decomposedBlockData") != std::string::npos)
+            {
+                return allBlocks(whole.stdStream(), nRanks);
+            }
+            if (line == "}") break;
+        }
+    }
+
     if (Foam::isFile(path + ".gz", false))
     {
         // A file that was cut off ends early
@@ -57,12 +94,18 @@ bool ended(const Foam::fileName& path)
 
 
 //- Is a time directory whole: its state file, which is written last, and all
-//  files of its clouds
+//  files of its clouds. In processors<N> it is that of N ranks.
 bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
 {
     using namespace Foam;
 
-    if (!ended(timePath/"uniform"/stateName)) return false;
+    label nRanks = 0;
+    const fileName root(timePath.path().name());
+    if (root.compare(0, 10, "processors") == 0)
+    {
+        nRanks = std::atoi(root.c_str() + 10);
+    }
+    if (!ended(timePath/"uniform"/stateName, nRanks)) return false;
 
     for (const fileName& name : readDir(timePath/cloud::prefix, fileName::DIRECTORY))
     {
@@ -70,7 +113,7 @@ bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
         const fileNameList files(readDir(path, fileName::FILE));
         for (const fileName& file : files)
         {
-            if (!ended(path/file)) return false;
+            if (!ended(path/file, nRanks)) return false;
         }
         // What every cloud needs
         for (const char* needed : {"x", "U", "mass", "id"})
@@ -201,7 +244,9 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
     label nIncomplete = 0;
     for (const word& name : names)
     {
-        if (returnReduce(complete(casePath/name, stateName), andOp<bool>()))
+        // On all ranks: file handlers may look for files by the master
+        const fileName timePath(fileHandler().filePath(casePath/name));
+        if (returnReduce(complete(timePath, stateName), andOp<bool>()))
         {
             break;
         }
@@ -217,14 +262,18 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
             << " cut off): it is"
             << " skipped and renamed to " << name << ".incomplete." << nl
             << endl;
-        const fileName from(casePath/name);
+        // One directory of all ranks if files are collated
+        const fileName own(casePath/name);
+        const fileName from(fileHandler().filePath(own));
         const fileName to(from + ".incomplete");
-        if (isDir(from))
+        if (isDir(from) && (from == own || Pstream::master()))
         {
             if (isDir(to)) rmDir(to);
             mv(from, to);
         }
     }
+    // Some file handlers keep the list of times
+    fileHandler().flush();
 }
 
 

@@ -5,6 +5,7 @@ License
 
 #include "lagrangianOutput.H"
 #include "dictionaryEntries.H"
+#include "fileOperation.H"
 #include "listed.H"
 #include "materialPointCloud.H"
 #include "stringListOps.H"
@@ -55,6 +56,19 @@ Foam::mpm::lagrangianOutput::lagrangianOutput
         if (!e.isDict()) continue;
 
         checkKeywords(e.dict(), known, strictKeywords);
+        const word handler(fileHandler().type());
+        if
+        (
+            (handler == "collated" || handler == "hostCollated")
+         && e.dict().lookupOrDefault<word>("precision", "double") == "single"
+        )
+        {
+            FatalIOErrorInFunction(e.dict())
+                << "keyword precision is single, but files of the fileHandler "
+                << handler << " hold all digits." << nl
+                << "    Allowed: double; or another fileHandler"
+                << exit(FatalIOError);
+        }
         auto* p = new part
         {
             e.dict().lookupOrDefault<wordRes>("fields", wordRes()),

@@ -112,7 +112,9 @@ bool writeSingle
 }
 
 
-//- Read a lagrangian field and hand each value to set(i, value)
+//- Read a lagrangian field and hand each value to set(i, value); false if
+//  there is no such file. To be called on all ranks, as file handlers that
+//  read by the master need it.
 template<class Type, class Set>
 bool readValues
 (
@@ -123,17 +125,17 @@ bool readValues
 )
 {
     IOobject header(fieldHeader(name, cloud, IOobject::MUST_READ));
-    if (!header.typeHeaderOk<IOField<Type>>(true)) return false;
+    const bool here = header.typeHeaderOk<IOField<Type>>(true);
 
-    const IOField<Type> field(header);
-    if (field.size() != size)
+    const IOField<Type> field(header, here);
+    if (here && field.size() != size)
     {
         FatalErrorInFunction
             << "file " << header.objectPath() << " has " << field.size()
             << " values for " << size << " points." << exit(FatalError);
     }
     forAll(field, i) set(i, field[i]);
-    return true;
+    return here;
 }
 
 
@@ -396,10 +398,8 @@ void Foam::mpm::materialPointCloud::readPoints()
     label n = 0;
     {
         IOobject header(fieldHeader("x", *this, IOobject::MUST_READ));
-        if (header.typeHeaderOk<IOField<vector>>(true))
-        {
-            n = IOField<vector>(header).size();
-        }
+        const bool here = header.typeHeaderOk<IOField<vector>>(true);
+        n = IOField<vector>(header, here).size();
     }
 
     const int64_t total = returnReduce(int64_t(n), sumOp<int64_t>());
@@ -429,7 +429,7 @@ void Foam::mpm::materialPointCloud::readPoints()
         {
             newFields.append(f.name);
         }
-        else if (n && !readField(f))
+        else if (!readField(f) && n)
         {
             FatalErrorInFunction
                 << "file " << fileOf(f.name)
