@@ -244,16 +244,6 @@ void Foam::mpm::waterSoilInteraction::findReach()
 }
 
 
-Foam::scalar Foam::mpm::waterSoilInteraction::liquidVolume
-(
-    const label node
-) const
-{
-    const scalar control = 1/water_.boundary().inverseVolume()[node];
-    return min(waterVolume(node), max(control - solidVolume(node), scalar(0)));
-}
-
-
 void Foam::mpm::waterSoilInteraction::findInside()
 {
     const std::vector<scalar>& inverseVolume =
@@ -277,7 +267,7 @@ void Foam::mpm::waterSoilInteraction::findInside()
             {
                 nodeVector& here = pressureInside_[i];
                 here = fields_.pressureForce[i];
-                here[3] = solidVolume(i) + liquidVolume(i);
+                here[3] = solidVolume(i) + waterVolume(i);
                 inside_.push_back(i);
             }
         }
@@ -902,7 +892,7 @@ void Foam::mpm::waterSoilInteraction::addForces(const scalar)
             }
             else
             {
-                const scalar liquid = wet ? liquidVolume(i) : 0;
+                const scalar liquid = wet ? waterVolume(i) : 0;
                 share = solid/(liquid + solid)*fields_.pressureForce[i];
             }
             for (label d = dim; d < 4; ++d) share[d] = 0;
