@@ -4,6 +4,7 @@ a restart needs all and says so."""
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -181,3 +182,14 @@ def testRefused(tmp_path, figures, output, control, expect):
     setup.control.update(control)
     case = setup.write(tmp_path/"case").prepare()
     refused(figures, case.solve(check=False), {"file": CONTROL, **expect})
+
+
+def testSingleIsNotCollated(tmp_path, figures, monkeypatch):
+    """Files of all ranks in one have all digits"""
+    case = scene(water={"precision": "single"}).write(tmp_path/"case")
+    case.prepare()
+    monkeypatch.setenv("FOAM_FILEHANDLER", "collated")
+    text = case.solve(check=False).text
+    figures.contains("refused", re.search(
+        r"precision is single.*collated.*\n\s*Allowed: double", text),
+        "precision, collated, double")

@@ -17,7 +17,7 @@ License
 #include "soilCloud.H"
 #include "phasePair.H"
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <fstream>
 #include <sys/statvfs.h>
 
@@ -94,17 +94,18 @@ bool ended(const Foam::fileName& path, const Foam::label nRanks)
 
 
 //- Is a time directory whole: its state file, which is written last, and all
-//  files of its clouds. In processors<N> it is that of N ranks.
+//  files of its clouds. In processors<N>, or processors<N>_<first>-<last>, it is
+//  that of several ranks.
 bool complete(const Foam::fileName& timePath, const Foam::word& stateName)
 {
     using namespace Foam;
 
-    label nRanks = 0;
-    const fileName root(timePath.path().name());
-    if (root.compare(0, 10, "processors") == 0)
-    {
-        nRanks = std::atoi(root.c_str() + 10);
-    }
+    int n = 0, first = 0, last = 0;
+    const int nFound = std::sscanf
+    (
+        timePath.path().name().c_str(), "processors%d_%d-%d", &n, &first, &last
+    );
+    const label nRanks = nFound == 3 ? last - first + 1 : n;
     if (!ended(timePath/"uniform"/stateName, nRanks)) return false;
 
     for (const fileName& name : readDir(timePath/cloud::prefix, fileName::DIRECTORY))
@@ -262,11 +263,14 @@ void Foam::mpm::materialPointSystem::setIncompleteTimesAside
             << " cut off): it is"
             << " skipped and renamed to " << name << ".incomplete." << nl
             << endl;
-        // One directory of all ranks if files are collated
-        const fileName own(casePath/name);
-        const fileName from(fileHandler().filePath(own));
+        // Of several ranks if files are collated: the first of them does it
+        List<fileName> all(Pstream::nProcs());
+        const fileName& from = all[Pstream::myProcNo()] =
+            fileHandler().filePath(casePath/name);
+        Pstream::gatherList(all);
+        Pstream::scatterList(all);
         const fileName to(from + ".incomplete");
-        if (isDir(from) && (from == own || Pstream::master()))
+        if (all.find(from) == Pstream::myProcNo() && isDir(from))
         {
             if (isDir(to)) rmDir(to);
             mv(from, to);
